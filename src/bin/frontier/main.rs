@@ -1,0 +1,13 @@
+//! `frontier`: exploration of maps, worlds and bags without a ROS installation.
+
+mod args;
+mod commands;
+mod exit;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args = args::Args::parse();
+    exit::code(commands::run(args.command))
+}

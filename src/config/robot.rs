@@ -1,0 +1,152 @@
+//! A robot: outline, speeds, lidar and how its navigation inflates obstacles.
+//! One file for each in `configs/robots/`.
+
+use crate::geometry::{Footprint, FootprintError, MotionLimits, Pose};
+use crate::grid::Inflation;
+use serde::{Deserialize, Serialize};
+
+/// A number of a robot file that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RobotConfigError {
+    /// The YAML is not a robot.
+    #[error("{0}")]
+    Syntax(String),
+    /// A value out of its range.
+    #[error("{key} is {value}: must be {allowed}")]
+    OutOfRange {
+        /// Which key.
+        key: &'static str,
+        /// As given.
+        value: f64,
+        /// The range in words.
+        allowed: &'static str,
+    },
+    /// A footprint that cannot be one.
+    #[error(transparent)]
+    Footprint(#[from] FootprintError),
+}
+
+/// A planar lidar and where it is mounted.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LidarConfig {
+    /// Mounting pose in the base frame.
+    #[serde(default)]
+    pub mount: Pose,
+    /// Shortest distance it can measure, metres.
+    pub range_min_m: f64,
+    /// Longest distance it can measure, metres.
+    pub range_max_m: f64,
+    /// Opening angle, centred ahead; 2 pi sees all round.
+    pub field_of_view_rad: f64,
+    /// Rays of one sweep.
+    pub rays: u32,
+    /// Sweeps per second.
+    pub rate_hz: f64,
+    /// Standard deviation of a range, metres.
+    #[serde(default)]
+    pub noise_std_m: f64,
+}
+
+/// How the robot's navigation inflates obstacles (costmap_2d's inflation layer).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CostmapConfig {
+    /// How far from an obstacle costs reach, metres.
+    pub inflation_radius_m: f64,
+    /// Rate of the exponential decay, per metre.
+    pub cost_scaling_factor: f64,
+    /// Added to the footprint's inscribed radius, metres.
+    #[serde(default)]
+    pub padding_m: f64,
+}
+
+/// A validated robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotConfig {
+    /// What users call it.
+    pub name: String,
+    /// Its outline.
+    pub footprint: Footprint,
+    /// What it is able to do.
+    pub limits: MotionLimits,
+    /// Its lidar.
+    pub lidar: LidarConfig,
+    /// Its costmap.
+    pub costmap: CostmapConfig,
+}
+
+impl RobotConfig {
+    /// Reads and validates the text of a robot file.
+    ///
+    /// # Errors
+    /// [`RobotConfigError`] that names the key, the value and what is allowed.
+    pub fn from_yaml(text: &str) -> Result<Self, RobotConfigError> {
+        let robot: Self = serde_saphyr::from_str(text).map_err(|e| RobotConfigError::Syntax(e.to_string()))?;
+        robot.validate()?;
+        Ok(robot)
+    }
+
+    /// The inflation layer of this robot's costmap.
+    #[must_use]
+    pub fn inflation(&self) -> Inflation {
+        Inflation {
+            inscribed_radius_m: self.footprint.inscribed_radius_m() + self.costmap.padding_m,
+            inflation_radius_m: self.costmap.inflation_radius_m,
+            cost_scaling_factor: self.costmap.cost_scaling_factor,
+        }
+    }
+
+    fn validate(&self) -> Result<(), RobotConfigError> {
+        self.footprint.validate()?;
+        let positive = [
+            ("limits.max_linear_mps", self.limits.max_linear_mps),
+            ("limits.max_angular_rps", self.limits.max_angular_rps),
+            ("limits.max_linear_mps2", self.limits.max_linear_mps2),
+            ("limits.max_angular_rps2", self.limits.max_angular_rps2),
+            ("lidar.range_max_m", self.lidar.range_max_m),
+            ("lidar.field_of_view_rad", self.lidar.field_of_view_rad),
+            ("lidar.rays", f64::from(self.lidar.rays)),
+            ("lidar.rate_hz", self.lidar.rate_hz),
+            ("costmap.inflation_radius_m", self.costmap.inflation_radius_m),
+        ];
+        let not_negative = [
+            ("lidar.range_min_m", self.lidar.range_min_m),
+            ("lidar.noise_std_m", self.lidar.noise_std_m),
+            ("costmap.cost_scaling_factor", self.costmap.cost_scaling_factor),
+            ("costmap.padding_m", self.costmap.padding_m),
+        ];
+        for (key, value) in positive {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(RobotConfigError::OutOfRange { key, value, allowed: "finite and > 0" });
+            }
+        }
+        for (key, value) in not_negative {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(RobotConfigError::OutOfRange { key, value, allowed: "finite and >= 0" });
+            }
+        }
+        let (min, max) = (self.lidar.range_min_m, self.lidar.range_max_m);
+        if min >= max {
+            return Err(RobotConfigError::OutOfRange {
+                key: "lidar.range_min_m",
+                value: min,
+                allowed: "below range_max_m",
+            });
+        }
+        if self.lidar.field_of_view_rad > std::f64::consts::TAU + 1e-6 {
+            let value = self.lidar.field_of_view_rad;
+            return Err(RobotConfigError::OutOfRange {
+                key: "lidar.field_of_view_rad",
+                value,
+                allowed: "at most 2 pi",
+            });
+        }
+        if self.lidar.rays > 100_000 {
+            let value = f64::from(self.lidar.rays);
+            return Err(RobotConfigError::OutOfRange { key: "lidar.rays", value, allowed: "at most 100000" });
+        }
+        Ok(())
+    }
+}

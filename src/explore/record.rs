@@ -1,0 +1,147 @@
+//! What is written down of a run: every decision with its reasons, and the end.
+
+use crate::geometry::Pose;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// A point in metres, as reports write it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Position {
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
+}
+
+impl From<crate::geometry::Point> for Position {
+    fn from(point: crate::geometry::Point) -> Self {
+        Self { x: point.x, y: point.y }
+    }
+}
+
+/// What became of one candidate in one decision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CandidateStatus {
+    /// The robot is sent there.
+    Chosen,
+    /// It could have been chosen; another one came before it.
+    Eligible,
+    /// The planner found no path to it.
+    NoPath,
+    /// No place to stand near it is connected to the robot.
+    Unreachable,
+    /// It failed, or was visited in vain, and is left alone for now.
+    Taboo,
+    /// It lies outside the region to explore.
+    OutsideRegion,
+    /// The robot stands there already.
+    AlreadyThere,
+}
+
+/// One frontier as a candidate for the next goal.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CandidateRecord {
+    /// The frontier's id.
+    pub id: u64,
+    /// The frontier's representative point.
+    pub target: Position,
+    /// Where the robot would stand, if it can.
+    pub goal: Option<Pose>,
+    /// Number of frontier cells.
+    pub size_cells: usize,
+    /// Cells times resolution.
+    pub size_m: f64,
+    /// Euclidean distance from the robot to the target, metres.
+    pub distance_m: f64,
+    /// Length of the planned way to the goal, metres, where it was computed.
+    pub path_m: Option<f64>,
+    /// The parts of the score by name; `total` orders, the smallest first.
+    pub scores: BTreeMap<&'static str, f64>,
+    /// What became of it.
+    pub status: CandidateStatus,
+}
+
+/// One decision: what was seen, what was weighed, what was done and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DecisionRecord {
+    /// When, seconds.
+    pub time_s: f64,
+    /// Where the robot was in the map frame.
+    pub pose: Pose,
+    /// All frontiers, best first where they have a score.
+    pub candidates: Vec<CandidateRecord>,
+    /// Where the robot is sent, if it drives.
+    pub goal: Option<Pose>,
+    /// One sentence for the user.
+    pub why: String,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EndReason {
+    /// No frontier is left that the robot could get to.
+    Complete,
+    /// Frontiers are left, and no way to any of them.
+    AllUnreachable,
+    /// Frontiers are left, all of them outside the region to explore.
+    OutsideRegion,
+    /// No map came in time.
+    NoMap,
+    /// The robot did not know where it was for too long.
+    NoPose,
+    /// The time allowed is over.
+    TimeLimit,
+    /// The user stopped it.
+    Interrupted,
+    /// The robot or its middleware went away.
+    Disconnected,
+    /// The recording ended.
+    RecordingEnded,
+}
+
+/// How many frontiers were left at the end, by the reason for leaving them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct LeftBehind {
+    /// Frontiers of the last detection.
+    pub frontiers: usize,
+    /// No place to stand near them is connected to the robot.
+    pub unreachable: usize,
+    /// Driving there failed too often.
+    pub failed: usize,
+    /// Visited, and nothing more could be seen.
+    pub exhausted: usize,
+    /// Outside the region to explore.
+    pub outside_region: usize,
+}
+
+/// The end of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct End {
+    /// Why.
+    pub reason: EndReason,
+    /// When, seconds.
+    pub time_s: f64,
+    /// What was left.
+    pub left_behind: LeftBehind,
+    /// One sentence for the user.
+    pub message: String,
+}
+
+/// What was done in a run, counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// Goals the robot was sent to.
+    pub goals_sent: usize,
+    /// Of those, goals it arrived at.
+    pub goals_reached: usize,
+    /// Of those, goals that were given up for lack of progress or a way.
+    pub goals_failed: usize,
+    /// Full turns made to look around.
+    pub turns: usize,
+    /// Recovery turns made because no way was found.
+    pub recoveries: usize,
+    /// Times that frontiers were detected.
+    pub detections: usize,
+}

@@ -1,0 +1,17 @@
+//! Poses, twists, polygons and footprints in the plane (floor 0).
+//!
+//! Lengths are metres, angles radians, counter-clockwise positive from the x axis
+//! (REP 103). Where a value belongs to a frame, its name says so (`pose_in_map`).
+
+mod footprint;
+mod motion;
+mod polygon;
+mod pose;
+
+pub use footprint::{Footprint, FootprintError};
+pub use motion::{MotionLimits, Twist};
+pub use polygon::{Polygon, PolygonError};
+pub use pose::{Pose, normalize_angle, shortest_angle};
+
+/// A point in the plane, in metres.
+pub type Point = nalgebra::Point2<f64>;

@@ -1,0 +1,307 @@
+//! Where a grid lies in the world: the one place of all cell/world mathematics.
+
+use crate::geometry::{Point, Pose};
+use serde::{Deserialize, Serialize};
+
+/// The most cells a grid may have: 16384 x 16384.
+pub const MAX_CELLS: u64 = 1 << 28;
+
+/// Offsets to the four cells that share a side, in a fixed order.
+pub const NEIGHBOURS_4: [(i32, i32); 4] = [(1, 0), (-1, 0), (0, 1), (0, -1)];
+
+/// Offsets to the eight cells that share a side or a corner, sides first.
+pub const NEIGHBOURS_8: [(i32, i32); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1)];
+
+/// Which cells count as adjacent; 4 and 8 in configuration files.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "u8", into = "u8")]
+pub enum Neighbourhood {
+    /// Cells that share a side.
+    Four,
+    /// Cells that share a side or a corner.
+    #[default]
+    Eight,
+}
+
+impl Neighbourhood {
+    /// The offsets to the adjacent cells.
+    #[must_use]
+    pub const fn offsets(self) -> &'static [(i32, i32)] {
+        match self {
+            Self::Four => &NEIGHBOURS_4,
+            Self::Eight => &NEIGHBOURS_8,
+        }
+    }
+}
+
+impl TryFrom<u8> for Neighbourhood {
+    type Error = String;
+
+    fn try_from(count: u8) -> Result<Self, String> {
+        match count {
+            4 => Ok(Self::Four),
+            8 => Ok(Self::Eight),
+            _ => Err(format!("{count} neighbours: must be 4 or 8")),
+        }
+    }
+}
+
+impl From<Neighbourhood> for u8 {
+    fn from(neighbourhood: Neighbourhood) -> Self {
+        match neighbourhood {
+            Neighbourhood::Four => 4,
+            Neighbourhood::Eight => 8,
+        }
+    }
+}
+
+/// A cell by column and row; it may lie outside a given grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Cell {
+    /// Column, from the grid's origin along its x axis.
+    pub x: i32,
+    /// Row, from the grid's origin along its y axis.
+    pub y: i32,
+}
+
+impl Cell {
+    /// A cell by column and row.
+    #[must_use]
+    pub const fn new(x: i32, y: i32) -> Self {
+        Self { x, y }
+    }
+
+    /// The cell at an offset from this one.
+    #[must_use]
+    pub const fn offset(self, (dx, dy): (i32, i32)) -> Self {
+        Self { x: self.x + dx, y: self.y + dy }
+    }
+
+    /// Squared Euclidean distance to another cell, in cells.
+    #[must_use]
+    pub const fn distance_squared(self, other: Self) -> i64 {
+        let (dx, dy) = ((self.x - other.x) as i64, (self.y - other.y) as i64);
+        dx * dx + dy * dy
+    }
+}
+
+/// Why numbers do not describe a grid.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum GridInfoError {
+    /// The edge length of a cell is not usable.
+    #[error("resolution {0} m per cell: must be a finite number > 0")]
+    Resolution(f64),
+    /// No cells, or more than fit in memory.
+    #[error("a grid of {width} x {height} cells: must have at least 1 and at most {MAX_CELLS} cells")]
+    Size {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// An origin that is not finite.
+    #[error("grid origin ({0}, {1}, {2}): must be finite metres and radians")]
+    Origin(f64, f64, f64),
+}
+
+/// Size, resolution and place of a grid: `nav_msgs/MapMetaData`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridInfo {
+    width: u32,
+    height: u32,
+    resolution_m: f64,
+    origin_in_map: Pose,
+    cos_yaw: f64,
+    sin_yaw: f64,
+}
+
+impl GridInfo {
+    /// A grid of `width` x `height` cells of `resolution_m` metres, whose cell (0, 0)
+    /// has its outer corner at `origin_in_map` and whose axes are turned by its yaw.
+    ///
+    /// # Errors
+    /// [`GridInfoError`] for a size of no cells or more than [`MAX_CELLS`], a
+    /// resolution that is not a positive number, an origin that is not finite.
+    pub fn new(width: u32, height: u32, resolution_m: f64, origin_in_map: Pose) -> Result<Self, GridInfoError> {
+        let cells = u64::from(width) * u64::from(height);
+        if cells == 0 || cells > MAX_CELLS {
+            return Err(GridInfoError::Size { width, height });
+        }
+        if !(resolution_m.is_finite() && resolution_m > 0.0) {
+            return Err(GridInfoError::Resolution(resolution_m));
+        }
+        if !origin_in_map.is_finite() {
+            return Err(GridInfoError::Origin(origin_in_map.x, origin_in_map.y, origin_in_map.yaw));
+        }
+        let (sin_yaw, cos_yaw) = origin_in_map.yaw.sin_cos();
+        Ok(Self { width, height, resolution_m, origin_in_map, cos_yaw, sin_yaw })
+    }
+
+    /// Columns.
+    #[must_use]
+    pub const fn width(&self) -> usize {
+        self.width as usize
+    }
+
+    /// Rows.
+    #[must_use]
+    pub const fn height(&self) -> usize {
+        self.height as usize
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.width() * self.height()
+    }
+
+    /// Never: a grid has at least one cell.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        false
+    }
+
+    /// Edge length of a cell in metres.
+    #[must_use]
+    pub const fn resolution_m(&self) -> f64 {
+        self.resolution_m
+    }
+
+    /// Area of a cell in square metres.
+    #[must_use]
+    pub fn cell_area_m2(&self) -> f64 {
+        self.resolution_m * self.resolution_m
+    }
+
+    /// The outer corner of cell (0, 0) and the grid's rotation, in the map frame.
+    #[must_use]
+    pub const fn origin_in_map(&self) -> Pose {
+        self.origin_in_map
+    }
+
+    /// Whether a cell belongs to the grid.
+    #[must_use]
+    pub const fn contains(&self, cell: Cell) -> bool {
+        cell.x >= 0 && cell.y >= 0 && (cell.x as u32) < self.width && (cell.y as u32) < self.height
+    }
+
+    /// Row-major index of a cell, `None` outside the grid.
+    #[must_use]
+    pub const fn index(&self, cell: Cell) -> Option<usize> {
+        if self.contains(cell) { Some(cell.y as usize * self.width as usize + cell.x as usize) } else { None }
+    }
+
+    /// The cell with a row-major index; of an index beyond the grid, a cell outside.
+    #[must_use]
+    pub const fn cell(&self, index: usize) -> Cell {
+        Cell::new((index % self.width as usize) as i32, (index / self.width as usize) as i32)
+    }
+
+    /// The cells adjacent to `cell` that belong to the grid, in a fixed order.
+    pub fn neighbours(&self, cell: Cell, neighbourhood: Neighbourhood) -> impl Iterator<Item = Cell> + use<> {
+        let info = *self;
+        neighbourhood.offsets().iter().map(move |&offset| cell.offset(offset)).filter(move |&c| info.contains(c))
+    }
+
+    /// Position in the grid's own frame in cells: (0, 0) is the origin corner, the
+    /// centre of cell (x, y) is (x + 0.5, y + 0.5).
+    #[must_use]
+    pub fn to_grid_units(&self, point_in_map: Point) -> (f64, f64) {
+        let dx = point_in_map.x - self.origin_in_map.x;
+        let dy = point_in_map.y - self.origin_in_map.y;
+        (
+            (dx * self.cos_yaw + dy * self.sin_yaw) / self.resolution_m,
+            (dy * self.cos_yaw - dx * self.sin_yaw) / self.resolution_m,
+        )
+    }
+
+    /// The inverse of [`Self::to_grid_units`].
+    #[must_use]
+    pub fn from_grid_units(&self, x_cells: f64, y_cells: f64) -> Point {
+        let (x, y) = (x_cells * self.resolution_m, y_cells * self.resolution_m);
+        Point::new(
+            self.origin_in_map.x + x * self.cos_yaw - y * self.sin_yaw,
+            self.origin_in_map.y + x * self.sin_yaw + y * self.cos_yaw,
+        )
+    }
+
+    /// The cell that holds a point of the map frame; it may lie outside the grid.
+    /// Points beyond 2^31 cells are held at that bound.
+    #[must_use]
+    pub fn cell_at(&self, point_in_map: Point) -> Cell {
+        let (x, y) = self.to_grid_units(point_in_map);
+        Cell::new(x.floor() as i32, y.floor() as i32)
+    }
+
+    /// Centre of a cell in the map frame, also for cells outside the grid.
+    #[must_use]
+    pub fn center(&self, cell: Cell) -> Point {
+        self.from_grid_units(f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5)
+    }
+
+    /// A length in metres as a number of cells.
+    #[must_use]
+    pub fn cells(&self, length_m: f64) -> f64 {
+        length_m / self.resolution_m
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn info(width: u32, height: u32, resolution_m: f64, origin: Pose) -> GridInfo {
+        GridInfo::new(width, height, resolution_m, origin).unwrap()
+    }
+
+    #[test]
+    fn corners_of_a_plain_grid() {
+        let grid = info(4, 3, 0.5, Pose::new(-1.0, 2.0, 0.0));
+        assert_eq!(grid.cell_at(Point::new(-1.0, 2.0)), Cell::new(0, 0));
+        assert_eq!(grid.cell_at(Point::new(0.999, 3.499)), Cell::new(3, 2));
+        assert_eq!(grid.cell_at(Point::new(1.0, 3.5)), Cell::new(4, 3));
+        assert_eq!(grid.cell_at(Point::new(-1.001, 1.999)), Cell::new(-1, -1));
+        assert_eq!(grid.center(Cell::new(0, 0)), Point::new(-0.75, 2.25));
+        assert_eq!(grid.index(Cell::new(3, 2)), Some(11));
+        assert_eq!(grid.cell(11), Cell::new(3, 2));
+        assert_eq!(grid.index(Cell::new(4, 0)), None);
+    }
+
+    #[test]
+    fn a_quarter_turned_grid_grows_to_the_left() {
+        let grid = info(4, 3, 1.0, Pose::new(0.0, 0.0, std::f64::consts::FRAC_PI_2));
+        assert_eq!(grid.cell_at(Point::new(-0.5, 3.5)), Cell::new(3, 0));
+        let center = grid.center(Cell::new(3, 0));
+        assert!((center - Point::new(-0.5, 3.5)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn impossible_grids_are_refused() {
+        assert!(matches!(GridInfo::new(0, 5, 0.05, Pose::default()), Err(GridInfoError::Size { .. })));
+        assert!(matches!(GridInfo::new(1 << 20, 1 << 20, 0.05, Pose::default()), Err(GridInfoError::Size { .. })));
+        for resolution in [0.0, -0.05, f64::NAN, f64::INFINITY] {
+            assert!(matches!(GridInfo::new(5, 5, resolution, Pose::default()), Err(GridInfoError::Resolution(_))));
+        }
+        assert!(matches!(GridInfo::new(5, 5, 0.05, Pose::new(f64::NAN, 0.0, 0.0)), Err(GridInfoError::Origin(..))));
+    }
+
+    proptest! {
+        #[test]
+        fn cell_and_world_are_inverse(
+            width in 1u32..300, height in 1u32..300, resolution in 0.01f64..1.0,
+            x in -50.0f64..50.0, y in -50.0f64..50.0, yaw in -4.0f64..4.0,
+            u in 0.0f64..1.0, v in 0.0f64..1.0,
+        ) {
+            let grid = info(width, height, resolution, Pose::new(x, y, yaw));
+            let far = Cell::new(width as i32 - 1, height as i32 - 1);
+            let any = Cell::new((u * f64::from(width)) as i32, (v * f64::from(height)) as i32);
+            for cell in [Cell::new(0, 0), Cell::new(far.x, 0), Cell::new(0, far.y), far, any, Cell::new(-3, -7)] {
+                prop_assert_eq!(grid.cell_at(grid.center(cell)), cell);
+            }
+            let point = grid.from_grid_units(u * f64::from(width), v * f64::from(height));
+            let (gx, gy) = grid.to_grid_units(point);
+            prop_assert!((gx - u * f64::from(width)).abs() < 1e-6 && (gy - v * f64::from(height)).abs() < 1e-6);
+        }
+    }
+}

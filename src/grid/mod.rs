@@ -1,0 +1,19 @@
+//! Occupancy grids, costmaps and what is computed on them cell by cell (floor 0).
+//!
+//! Row order is ROS's: cell (0, 0) is the lowest x and y of the grid's own frame and
+//! index `y * width + x`; images, whose first row is the highest y, are turned over
+//! where they are read or written and nowhere else.
+
+mod costmap;
+mod distance;
+mod info;
+mod occupancy;
+mod raytrace;
+mod state;
+
+pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, UNKNOWN_COST};
+pub use distance::squared_distance_cells;
+pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
+pub use occupancy::{Census, GridError, OccupancyGrid};
+pub use raytrace::{Traversal, traverse};
+pub use state::{CellState, ThresholdError, Thresholds};

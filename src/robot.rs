@@ -1,0 +1,139 @@
+//! The port between the explorer and whatever it explores with: a simulated robot, a
+//! robot behind ROS, a recorded bag (floor 2).
+
+use crate::geometry::Pose;
+use crate::grid::{Costmap, OccupancyGrid};
+use crate::scan::LaserScan;
+use serde::Serialize;
+use std::sync::Arc;
+
+/// A map and when it was true.
+#[derive(Clone, Debug)]
+pub struct MapSnapshot {
+    /// Everything sensed up to this time, in seconds, is in the map.
+    pub stamp_s: f64,
+    /// The occupancy grid.
+    pub grid: Arc<OccupancyGrid>,
+    /// A costmap of the same map, if the robot's navigation already has one.
+    pub costmap: Option<Arc<Costmap>>,
+}
+
+/// Why the robot does not know where it is.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PoseError {
+    /// No transform has connected the two frames so far.
+    #[error("no transform from {map_frame} to {base_frame} yet")]
+    NotYet {
+        /// The map's frame.
+        map_frame: String,
+        /// The robot's frame.
+        base_frame: String,
+    },
+    /// The newest transform is too old to be believed.
+    #[error("the transform from {map_frame} to {base_frame} is {age_s:.1} s old: must be at most {limit_s} s")]
+    Stale {
+        /// The map's frame.
+        map_frame: String,
+        /// The robot's frame.
+        base_frame: String,
+        /// Its age in seconds.
+        age_s: f64,
+        /// The allowed age in seconds.
+        limit_s: f64,
+    },
+}
+
+/// Identifies one command among those of a run; a repeated id is the same command
+/// going on.
+pub type CommandId = u64;
+
+/// What became of the last command.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NavigationState {
+    /// No command has been given, or the last one was to hold.
+    Idle,
+    /// Under way.
+    Active,
+    /// Arrived, or turned all the way.
+    Succeeded,
+    /// Given up by the robot's navigation, with its reason.
+    Aborted(String),
+    /// Taken away by somebody else, such as a person clicking a goal in RViz: not a
+    /// failure of the goal.
+    Preempted,
+}
+
+/// The state of a command, by its id.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Navigation {
+    /// Which command this is about.
+    pub command: CommandId,
+    /// What became of it.
+    pub state: NavigationState,
+}
+
+/// All that the explorer may know at one tick.
+#[derive(Clone, Debug)]
+pub struct Observation {
+    /// Now, in seconds of the source's own time (simulated, recorded or real).
+    pub stamp_s: f64,
+    /// Where the base frame is in the map frame, or why that is not known.
+    pub pose_in_map: Result<Pose, PoseError>,
+    /// The newest map, if any came.
+    pub map: Option<MapSnapshot>,
+    /// The newest scan with the lidar's pose in the map frame, if the source has one.
+    pub scan: Option<(Pose, Arc<LaserScan>)>,
+    /// How the last command is doing.
+    pub navigation: Navigation,
+}
+
+/// What the robot shall do. Given anew at every tick: the same id goes on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Command {
+    /// Stay where it is; a command under way is cancelled.
+    Hold,
+    /// Drive to a pose of the map frame.
+    Drive {
+        /// Of this command.
+        id: CommandId,
+        /// Where to.
+        goal_in_map: Pose,
+    },
+    /// Turn on the spot by an angle.
+    Turn {
+        /// Of this command.
+        id: CommandId,
+        /// How far, counter-clockwise positive; more than a full turn is allowed.
+        angle_rad: f64,
+    },
+}
+
+/// Why a robot cannot be observed or commanded any more.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RobotError {
+    /// The recording is over.
+    #[error("the recording ended")]
+    Ended,
+    /// Somebody asked the program to stop.
+    #[error("interrupted")]
+    Interrupted,
+    /// The robot or its middleware is gone.
+    #[error("the connection to the robot is lost: {0}")]
+    Disconnected(String),
+}
+
+/// A robot, or what plays its part.
+pub trait Robot {
+    /// Waits for the next tick and tells what is known then.
+    ///
+    /// # Errors
+    /// [`RobotError`] when there will be no next tick.
+    fn observe(&mut self) -> Result<Observation, RobotError>;
+
+    /// Hands over the command for the time until the next tick.
+    ///
+    /// # Errors
+    /// [`RobotError`] when nobody is left to obey.
+    fn command(&mut self, command: &Command) -> Result<(), RobotError>;
+}

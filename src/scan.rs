@@ -1,0 +1,90 @@
+//! One sweep of a planar lidar, with the fields of `sensor_msgs/LaserScan` (floor 0).
+
+use crate::geometry::{Point, Pose};
+
+/// Distances by angle, as REP 117 reads them: `+inf` saw nothing within reach,
+/// `-inf` is too near to measure, NaN is no measurement.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LaserScan {
+    /// When the sweep was taken, seconds.
+    pub stamp_s: f64,
+    /// Heading of the first ray in the lidar's frame, radians.
+    pub angle_min_rad: f64,
+    /// Angle between neighbouring rays, radians, counter-clockwise positive.
+    pub angle_increment_rad: f64,
+    /// Readings below this many metres are no obstacle.
+    pub range_min_m: f64,
+    /// Readings above this many metres are no obstacle.
+    pub range_max_m: f64,
+    /// One reading a ray, metres.
+    pub ranges_m: Vec<f32>,
+}
+
+/// What one ray of a scan says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reading {
+    /// Something stands at this distance in metres.
+    Hit(f64),
+    /// Nothing stands up to this distance in metres.
+    Clear(f64),
+    /// Nothing can be said: too near, not a number, or out of the sensor's range.
+    None,
+}
+
+impl LaserScan {
+    /// Heading of ray `index` in the lidar's frame, radians.
+    #[must_use]
+    pub fn angle_rad(&self, index: usize) -> f64 {
+        self.angle_min_rad + self.angle_increment_rad * index as f64
+    }
+
+    /// What a range means under REP 117 and this scan's limits.
+    #[must_use]
+    pub fn reading(&self, range_m: f32) -> Reading {
+        let range = f64::from(range_m);
+        if range == f64::INFINITY {
+            Reading::Clear(self.range_max_m)
+        } else if range >= self.range_min_m && range <= self.range_max_m {
+            Reading::Hit(range)
+        } else {
+            Reading::None
+        }
+    }
+
+    /// All rays as angle in the lidar's frame (radians) and reading.
+    pub fn readings(&self) -> impl Iterator<Item = (f64, Reading)> + '_ {
+        self.ranges_m.iter().enumerate().map(|(i, &range)| (self.angle_rad(i), self.reading(range)))
+    }
+
+    /// The hit points in the frame in which the lidar stands at `lidar_pose`.
+    pub fn hits<'a>(&'a self, lidar_pose: &'a Pose) -> impl Iterator<Item = Point> + 'a {
+        self.readings().filter_map(|(angle, reading)| match reading {
+            Reading::Hit(range) => {
+                let heading = lidar_pose.yaw + angle;
+                Some(Point::new(lidar_pose.x + range * heading.cos(), lidar_pose.y + range * heading.sin()))
+            }
+            Reading::Clear(_) | Reading::None => None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rep_117_tells_hits_from_clear_and_nothing() {
+        let scan = LaserScan { range_min_m: 0.1, range_max_m: 5.0, ..LaserScan::default() };
+        let cases = [
+            (1.0, Reading::Hit(1.0)),
+            (f32::INFINITY, Reading::Clear(5.0)),
+            (f32::NEG_INFINITY, Reading::None),
+            (f32::NAN, Reading::None),
+            (0.05, Reading::None),
+            (6.0, Reading::None),
+        ];
+        for (range, expected) in cases {
+            assert_eq!(scan.reading(range), expected, "{range}");
+        }
+    }
+}
