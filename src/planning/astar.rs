@@ -74,7 +74,7 @@ mod tests {
     fn failures_have_names() {
         let map = costmap("..#.?\n..#..");
         let start = Pose::new(0.5, 0.5, 0.0);
-        let mut plan = |x: f64, y: f64| Astar::default().plan(&map, &start, &Pose::new(x, y, 0.0)).unwrap_err();
+        let plan = |x: f64, y: f64| Astar::default().plan(&map, &start, &Pose::new(x, y, 0.0)).unwrap_err();
         assert!(matches!(plan(3.5, 0.5), PlanError::NoPath { .. }));
         assert!(matches!(plan(4.5, 1.5), PlanError::GoalOccupied { .. }));
         assert!(matches!(plan(9.5, 0.5), PlanError::GoalOutsideMap { .. }));

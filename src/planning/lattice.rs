@@ -82,18 +82,6 @@ impl<'a> Lattice<'a> {
         self.costs.len()
     }
 
-    /// Whether there are no cells.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.costs.is_empty()
-    }
-
-    /// Whether the robot's centre may be in a cell.
-    #[must_use]
-    pub fn is_passable(&self, index: usize) -> bool {
-        self.costs.get(index).is_some_and(|&cost| cost < INSCRIBED_COST)
-    }
-
     /// Calls `visit` with every allowed step from a cell. A diagonal step needs both
     /// cells beside it passable: no corner is cut.
     #[inline]

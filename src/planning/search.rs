@@ -19,12 +19,11 @@ pub struct Search {
     queue: BucketQueue,
     cost: Vec<u32>,
     came_by: Vec<u8>,
-    expanded: usize,
 }
 
 impl Default for Search {
     fn default() -> Self {
-        Self { queue: BucketQueue::new(2 * MAX_STEP), cost: Vec::new(), came_by: Vec::new(), expanded: 0 }
+        Self { queue: BucketQueue::new(2 * MAX_STEP), cost: Vec::new(), came_by: Vec::new() }
     }
 }
 
@@ -37,7 +36,6 @@ impl Search {
         self.cost.resize(lattice.len(), UNREACHED);
         self.came_by.clear();
         self.came_by.resize(lattice.len(), NO_DIRECTION);
-        self.expanded = 0;
         let estimate = |index: usize| match goal {
             Some(goal) if heuristic => lattice.octile(index, goal),
             _ => 0,
@@ -51,7 +49,6 @@ impl Search {
             if key > cost + estimate(index) {
                 continue;
             }
-            self.expanded += 1;
             if goal == Some(index) {
                 return true;
             }
@@ -88,11 +85,5 @@ impl Search {
         }
         way.reverse();
         way
-    }
-
-    /// How many cells the last search expanded.
-    #[must_use]
-    pub const fn expanded(&self) -> usize {
-        self.expanded
     }
 }
