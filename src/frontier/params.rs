@@ -23,8 +23,7 @@ pub enum Reachability {
 }
 
 /// Parameters of a detector.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DetectorParams {
     /// Which cells are adjacent.
     pub neighbours: Neighbourhood,
@@ -33,19 +32,7 @@ pub struct DetectorParams {
     /// Smaller frontiers are dropped; number of cells times resolution, metres.
     pub min_size_m: f64,
     /// Where free ends and occupied begins.
-    #[serde(skip)]
     pub thresholds: Thresholds,
-}
-
-impl Default for DetectorParams {
-    fn default() -> Self {
-        Self {
-            neighbours: Neighbourhood::Eight,
-            reachability: Reachability::WallsBlock,
-            min_size_m: 0.0,
-            thresholds: Thresholds::default(),
-        }
-    }
 }
 
 /// A detector parameter that cannot be.
