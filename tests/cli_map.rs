@@ -1,5 +1,7 @@
 //! `frontier map` as a user meets it: output, messages and exit codes.
 
+#![allow(clippy::unwrap_used)] // the helpers below serve tests alone
+
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
