@@ -1,5 +1,7 @@
 //! Configuration files: raw serde structs that become validated types (floor 2).
 
 mod robot;
+mod robots;
 
 pub use robot::{CostmapConfig, LidarConfig, RobotConfig, RobotConfigError};
+pub use robots::{BUILTIN_ROBOTS, builtin_robot};
