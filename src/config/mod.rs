@@ -2,6 +2,8 @@
 
 mod preset;
 mod robot;
+mod robots;
 
 pub use preset::{NavigationSettings, Preset, PresetError};
 pub use robot::{CostmapConfig, LidarConfig, RobotConfig, RobotConfigError};
+pub use robots::{BUILTIN_ROBOTS, builtin_robot};

@@ -18,6 +18,14 @@ pub enum RobotConfigError {
     /// A footprint that cannot be one.
     #[error(transparent)]
     Footprint(#[from] FootprintError),
+    /// A name that no built-in robot has.
+    #[error("no robot is called '{name}': must be one of {known}")]
+    UnknownName {
+        /// As given.
+        name: String,
+        /// The names that there are.
+        known: String,
+    },
 }
 
 /// A planar lidar and where it is mounted.
