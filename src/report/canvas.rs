@@ -58,6 +58,18 @@ impl Canvas {
         }
     }
 
+    /// Makes all of it unknown again.
+    pub fn clear(&mut self) {
+        self.pixels.fill(Ink::Unknown.index());
+    }
+
+    /// Pixels of one row between two columns; empty outside.
+    pub(super) fn span(&self, y_px: usize, x_px: std::ops::Range<usize>) -> &[u8] {
+        let width = self.view.width_px();
+        let (start, end) = (x_px.start.min(width), x_px.end.min(width));
+        self.pixels.get(y_px * width + start..y_px * width + end).unwrap_or_default()
+    }
+
     /// Pixels of one row between two columns, for writing; empty outside.
     pub(super) fn span_mut(&mut self, y_px: usize, x_px: std::ops::Range<usize>) -> &mut [u8] {
         let width = self.view.width_px();
