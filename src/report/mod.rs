@@ -7,8 +7,14 @@
 mod animation;
 mod canvas;
 mod frame_log;
+mod html;
 mod overlay;
 mod picture;
+mod plots;
+mod run_json;
+#[cfg(test)]
+mod sample;
+mod series;
 mod shapes;
 mod theme;
 mod view;
@@ -16,8 +22,12 @@ mod view;
 pub use animation::Animation;
 pub use canvas::Canvas;
 pub use frame_log::{Frame, FrameLog};
+pub use html::HtmlReport;
 pub use overlay::{Overlay, OverlayFrontier};
 pub use picture::{Picture, PictureGoal};
+pub use plots::{coverage_svg, distance_svg};
+pub use run_json::{MedianMax, RunRecord, SCHEMA_VERSION, Wall};
+pub use series::{ByShare, COVERAGE_SHARES, Series, SeriesPoint};
 pub use theme::{Ink, Rgb, Theme};
 pub use view::{Bounds, SizeLimits, View};
 
@@ -36,4 +46,27 @@ pub enum ReportError {
     /// A run without a single map.
     #[error("an animation needs at least one frame, and there are none")]
     NoFrames,
+    /// A chart cannot be drawn.
+    #[error("cannot draw a chart: {0}")]
+    Plot(String),
+    /// The page cannot be filled in.
+    #[error("cannot make the HTML report")]
+    Template(#[from] minijinja::Error),
+    /// A number of the run that is none.
+    #[error("{field} of the run is {value}: must be finite")]
+    NotFinite {
+        /// Which.
+        field: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// A run that cannot be written as JSON, or JSON that is not one.
+    #[error("not a run.json: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A file of another time.
+    #[error("run.json has schema version {found}: must be {SCHEMA_VERSION}")]
+    SchemaVersion {
+        /// The version that the file names.
+        found: u32,
+    },
 }
