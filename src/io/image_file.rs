@@ -45,10 +45,14 @@ pub(super) enum Channels {
 
 /// Reads a map's image.
 pub(super) fn read_image(path: &Path) -> Result<MapPixels, MapError> {
-    let bytes = read_file(path, "the image of a map", MAX_IMAGE_BYTES)?;
-    match bytes.as_slice() {
-        [b'P', b'2' | b'5', ..] => read_pgm(&bytes, path),
-        [0x89, b'P', b'N', b'G', ..] => read_png(&bytes, path),
+    decode_image(&read_file(path, "the image of a map", MAX_IMAGE_BYTES)?, path)
+}
+
+/// Decodes the bytes of a map's image; `path` is for messages.
+pub(super) fn decode_image(bytes: &[u8], path: &Path) -> Result<MapPixels, MapError> {
+    match bytes {
+        [b'P', b'2' | b'5', ..] => read_pgm(bytes, path),
+        [0x89, b'P', b'N', b'G', ..] => read_png(bytes, path),
         [b'P', b'1' | b'3' | b'4' | b'6' | b'7', ..] => Err(kind(path, "another kind of PNM image")),
         [b'B', b'M', ..] => Err(kind(path, "a BMP image")),
         [0xff, 0xd8, ..] => Err(kind(path, "a JPEG image")),

@@ -12,7 +12,7 @@
 //! One thing is not copied: map_server reads the blue of an image without alpha as its
 //! transparency in scale mode.
 
-use super::image_file::{Channels, read_image};
+use super::image_file::{Channels, MapPixels, decode_image, read_image};
 use super::{MapError, MapMode, MapYaml};
 use crate::grid::{GridInfo, OccupancyGrid};
 use std::path::{Path, PathBuf};
@@ -37,6 +37,24 @@ pub fn load_map(path: &Path) -> Result<LoadedMap, MapError> {
     let yaml = MapYaml::read(path)?;
     let image_path = path.parent().unwrap_or(Path::new("")).join(&yaml.image);
     let pixels = read_image(&image_path)?;
+    assemble(yaml, &pixels, path, image_path)
+}
+
+/// A map from the bytes of its two files, as they were built into a program; `name`
+/// stands for the path in messages.
+///
+/// # Errors
+/// As [`load_map`].
+pub fn map_from_bytes(name: &str, yaml: &str, image: &[u8]) -> Result<LoadedMap, MapError> {
+    let path = Path::new(name);
+    let yaml = MapYaml::parse(yaml, path)?;
+    let image_path = yaml.image.clone();
+    let pixels = decode_image(image, &image_path)?;
+    assemble(yaml, &pixels, path, image_path)
+}
+
+/// The grid that pixels stand for under the rules of a map's YAML file.
+fn assemble(yaml: MapYaml, pixels: &MapPixels, path: &Path, image_path: PathBuf) -> Result<LoadedMap, MapError> {
     let info = GridInfo::new(pixels.width, pixels.height, yaml.resolution_m, yaml.origin_in_map)
         .map_err(|source| MapError::Grid { path: path.to_path_buf(), source })?;
     let rule = Rule { yaml: &yaml };
