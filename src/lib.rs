@@ -13,6 +13,7 @@ pub mod grid;
 pub mod io;
 pub mod navigation;
 pub mod planning;
+pub mod range;
 pub mod report;
 pub mod robot;
 pub mod scan;

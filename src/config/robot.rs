@@ -3,6 +3,7 @@
 
 use crate::geometry::{Footprint, FootprintError, MotionLimits, Pose};
 use crate::grid::Inflation;
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
 /// A number of a robot file that cannot be.
@@ -12,18 +13,19 @@ pub enum RobotConfigError {
     #[error("{0}")]
     Syntax(String),
     /// A value out of its range.
-    #[error("{key} is {value}: must be {allowed}")]
-    OutOfRange {
-        /// Which key.
-        key: &'static str,
-        /// As given.
-        value: f64,
-        /// The range in words.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// A footprint that cannot be one.
     #[error(transparent)]
     Footprint(#[from] FootprintError),
+    /// A name that no built-in robot has.
+    #[error("no robot is called '{name}': must be one of {known}")]
+    UnknownName {
+        /// As given.
+        name: String,
+        /// The names that there are.
+        known: String,
+    },
 }
 
 /// A planar lidar and where it is mounted.
@@ -56,7 +58,7 @@ pub struct CostmapConfig {
     pub inflation_radius_m: f64,
     /// Rate of the exponential decay, per metre.
     pub cost_scaling_factor: f64,
-    /// Added to the footprint's inscribed radius, metres.
+    /// Added to the footprint's radius, metres.
     #[serde(default)]
     pub padding_m: f64,
 }
@@ -88,11 +90,13 @@ impl RobotConfig {
         Ok(robot)
     }
 
-    /// The inflation layer of this robot's costmap.
+    /// The inflation layer of this robot's costmap. A path is checked for the robot's
+    /// centre alone, whatever its heading will be there, so the disc that is kept free
+    /// is the circumscribed one.
     #[must_use]
     pub fn inflation(&self) -> Inflation {
         Inflation {
-            inscribed_radius_m: self.footprint.inscribed_radius_m() + self.costmap.padding_m,
+            inscribed_radius_m: self.footprint.circumscribed_radius_m() + self.costmap.padding_m,
             inflation_radius_m: self.costmap.inflation_radius_m,
             cost_scaling_factor: self.costmap.cost_scaling_factor,
         }
@@ -100,7 +104,7 @@ impl RobotConfig {
 
     fn validate(&self) -> Result<(), RobotConfigError> {
         self.footprint.validate()?;
-        let positive = [
+        for (key, value) in [
             ("limits.max_linear_mps", self.limits.max_linear_mps),
             ("limits.max_angular_rps", self.limits.max_angular_rps),
             ("limits.max_linear_mps2", self.limits.max_linear_mps2),
@@ -110,43 +114,27 @@ impl RobotConfig {
             ("lidar.rays", f64::from(self.lidar.rays)),
             ("lidar.rate_hz", self.lidar.rate_hz),
             ("costmap.inflation_radius_m", self.costmap.inflation_radius_m),
-        ];
-        let not_negative = [
+        ] {
+            OutOfRange::unless_positive(key, value)?;
+        }
+        for (key, value) in [
             ("lidar.range_min_m", self.lidar.range_min_m),
             ("lidar.noise_std_m", self.lidar.noise_std_m),
             ("costmap.cost_scaling_factor", self.costmap.cost_scaling_factor),
             ("costmap.padding_m", self.costmap.padding_m),
-        ];
-        for (key, value) in positive {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(RobotConfigError::OutOfRange { key, value, allowed: "finite and > 0" });
-            }
+        ] {
+            OutOfRange::unless_not_negative(key, value)?;
         }
-        for (key, value) in not_negative {
-            if !(value.is_finite() && value >= 0.0) {
-                return Err(RobotConfigError::OutOfRange { key, value, allowed: "finite and >= 0" });
-            }
-        }
-        let (min, max) = (self.lidar.range_min_m, self.lidar.range_max_m);
-        if min >= max {
-            return Err(RobotConfigError::OutOfRange {
-                key: "lidar.range_min_m",
-                value: min,
-                allowed: "below range_max_m",
-            });
-        }
-        if self.lidar.field_of_view_rad > std::f64::consts::TAU + 1e-6 {
-            let value = self.lidar.field_of_view_rad;
-            return Err(RobotConfigError::OutOfRange {
-                key: "lidar.field_of_view_rad",
-                value,
-                allowed: "at most 2 pi",
-            });
-        }
-        if self.lidar.rays > 100_000 {
-            let value = f64::from(self.lidar.rays);
-            return Err(RobotConfigError::OutOfRange { key: "lidar.rays", value, allowed: "at most 100000" });
-        }
+        let lidar = &self.lidar;
+        OutOfRange::unless(
+            lidar.range_min_m < lidar.range_max_m,
+            "lidar.range_min_m",
+            lidar.range_min_m,
+            "below range_max_m",
+        )?;
+        let all_round = lidar.field_of_view_rad <= std::f64::consts::TAU + 1e-6;
+        OutOfRange::unless(all_round, "lidar.field_of_view_rad", lidar.field_of_view_rad, "at most 2 pi")?;
+        OutOfRange::unless(lidar.rays <= 100_000, "lidar.rays", f64::from(lidar.rays), "at most 100000")?;
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! What is written down of a run: every decision with its reasons, and the end.
 
 use crate::geometry::Pose;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A point in metres, as reports write it.
@@ -78,7 +78,7 @@ pub struct DecisionRecord {
 }
 
 /// Why a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EndReason {
     /// No frontier is left that the robot could get to.
@@ -102,7 +102,7 @@ pub enum EndReason {
 }
 
 /// How many frontiers were left at the end, by the reason for leaving them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeftBehind {
     /// Frontiers of the last detection.
     pub frontiers: usize,
@@ -130,7 +130,7 @@ pub struct End {
 }
 
 /// What was done in a run, counted.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Goals the robot was sent to.
     pub goals_sent: usize,

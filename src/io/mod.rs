@@ -1,1 +1,19 @@
-//! io.
+//! Files: map_server maps, and writing that is never seen half done (the rim).
+//!
+//! A map is a YAML file that names an image. The image's first row is the top of the
+//! map and the grid's first row its bottom: the rows are turned over here, on the way
+//! in and on the way out, and nowhere else.
+
+mod atomic;
+mod error;
+mod image_file;
+mod map_load;
+mod map_save;
+mod map_yaml;
+mod pgm;
+
+pub use atomic::write_atomic;
+pub use error::MapError;
+pub use map_load::{LoadedMap, load_map};
+pub use map_save::{MapImage, SaveOptions, SavedPaths, save_map};
+pub use map_yaml::{MapMode, MapYaml};

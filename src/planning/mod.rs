@@ -1,5 +1,16 @@
 //! Paths over a costmap (floor 1): one file for each planner.
 
+mod astar;
+mod bucket_queue;
+mod endpoints;
+mod field;
+mod lattice;
+mod search;
+
+pub use astar::Astar;
+pub use endpoints::{ESCAPE_RADIUS_M, flood};
+pub use field::PathField;
+
 use crate::geometry::{Point, Pose};
 use crate::grid::Costmap;
 use serde::{Deserialize, Serialize};
@@ -100,4 +111,17 @@ pub enum PlannerKind {
     /// A* over the costmap's costs.
     #[default]
     Astar,
+}
+
+impl PlannerKind {
+    /// All planners, for tables of tests and help.
+    pub const ALL: &'static [Self] = &[Self::Astar];
+
+    /// A planner of this kind.
+    #[must_use]
+    pub fn build(self) -> Box<dyn GlobalPlanner> {
+        match self {
+            Self::Astar => Box::new(Astar::default()),
+        }
+    }
 }

@@ -1,0 +1,29 @@
+//! `frontier map`: map_server maps.
+
+mod convert;
+mod diff;
+mod info;
+mod picture;
+
+use crate::exit::Outcome;
+use clap::Subcommand;
+
+/// What to do with maps.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Print size, resolution, origin and the areas known and unknown.
+    Info(info::Args),
+    /// Write a map anew, as map_saver would save it.
+    Convert(convert::Args),
+    /// Compare two maps place by place; exit code 1 when they differ.
+    Diff(diff::Args),
+}
+
+/// Runs `frontier map`.
+pub fn run(command: &Command) -> anyhow::Result<Outcome> {
+    match command {
+        Command::Info(args) => info::run(args),
+        Command::Convert(args) => convert::run(args),
+        Command::Diff(args) => diff::run(args),
+    }
+}

@@ -1,0 +1,153 @@
+//! Presets: one YAML file for each document that is implemented, in `configs/`.
+
+use crate::control::FollowerConfig;
+use crate::explore::{ExplorerSettings, SettingsError};
+use crate::navigation::NavigatorConfig;
+use crate::range::OutOfRange;
+use serde::{Deserialize, Serialize};
+
+/// A preset that cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PresetError {
+    /// The YAML is not a preset.
+    #[error("{0}")]
+    Syntax(String),
+    /// A setting of the explorer that cannot be.
+    #[error("explorer.{0}")]
+    Explorer(#[from] SettingsError),
+    /// A setting of the navigation that cannot be.
+    #[error("navigation.{0}")]
+    Navigation(#[from] OutOfRange),
+    /// A name that no built-in preset has.
+    #[error("there is no preset {name:?}: must be one of {valid}")]
+    Unknown {
+        /// As given.
+        name: String,
+        /// The valid names.
+        valid: String,
+    },
+}
+
+/// How an exploration is done: what the explorer decides and how goals are driven to.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Preset {
+    /// What reports call it.
+    pub preset: String,
+    /// The decisions.
+    pub explorer: ExplorerSettings,
+    /// The driving, where our own navigation does it.
+    pub navigation: NavigationSettings,
+}
+
+/// How goals are driven to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NavigationSettings {
+    /// Tolerances and patience.
+    pub navigator: NavigatorConfig,
+    /// The path follower.
+    pub follower: FollowerConfig,
+}
+
+/// The presets in the binary, by name, as in `configs/`.
+const BUILT_IN: &[(&str, &str)] = &[("wfd", include_str!("../../configs/wfd.yaml"))];
+
+impl Preset {
+    /// The names of the built-in presets.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        BUILT_IN.iter().map(|(name, _)| *name)
+    }
+
+    /// A built-in preset.
+    ///
+    /// # Errors
+    /// [`PresetError::Unknown`] with the valid names.
+    pub fn built_in(name: &str) -> Result<Self, PresetError> {
+        let known = BUILT_IN.iter().find(|(known, _)| *known == name);
+        let unknown =
+            || PresetError::Unknown { name: name.to_owned(), valid: Self::names().collect::<Vec<_>>().join(", ") };
+        let (name, text) = known.ok_or_else(unknown)?;
+        Self::from_yaml(text, name)
+    }
+
+    /// Reads and validates the text of a preset; `name` serves where it has none.
+    ///
+    /// # Errors
+    /// [`PresetError`] that names the key, the value and what is allowed.
+    pub fn from_yaml(text: &str, name: &str) -> Result<Self, PresetError> {
+        let mut preset: Self = serde_saphyr::from_str(text).map_err(|e| PresetError::Syntax(e.to_string()))?;
+        if preset.preset.is_empty() {
+            name.clone_into(&mut preset.preset);
+        }
+        preset.explorer.validate()?;
+        preset.navigation.validate()?;
+        Ok(preset)
+    }
+}
+
+impl NavigationSettings {
+    fn validate(&self) -> Result<(), OutOfRange> {
+        let (navigator, follower) = (&self.navigator, &self.follower);
+        for (key, value) in [
+            ("navigator.control_period_s", navigator.control_period_s),
+            ("navigator.xy_goal_tolerance_m", navigator.xy_goal_tolerance_m),
+            ("navigator.yaw_goal_tolerance_rad", navigator.yaw_goal_tolerance_rad),
+            ("navigator.replan_period_s", navigator.replan_period_s),
+            ("navigator.planner_patience_s", navigator.planner_patience_s),
+            ("navigator.controller_patience_s", navigator.controller_patience_s),
+            ("navigator.turn_speed_rps", navigator.turn_speed_rps),
+            ("follower.lookahead_m", follower.lookahead_m),
+            ("follower.turn_on_spot_above_rad", follower.turn_on_spot_above_rad),
+            ("follower.heading_gain", follower.heading_gain),
+        ] {
+            OutOfRange::unless_positive(key, value)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_preset_loads_under_its_own_name() {
+        for name in Preset::names() {
+            assert_eq!(Preset::built_in(name).unwrap().preset, name);
+        }
+    }
+
+    #[test]
+    fn every_preset_file_is_built_in() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/configs");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.extension().is_some_and(|e| e == "yaml") && !path.ends_with("worlds.yaml"))
+            .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        files.sort();
+        let mut names: Vec<&str> = Preset::names().collect();
+        names.sort_unstable();
+        assert_eq!(files, names);
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let error = |yaml: &str| Preset::from_yaml(yaml, "test").unwrap_err().to_string();
+        assert!(error("explorer: {detecter: {}}").contains("detecter"), "{}", error("explorer: {detecter: {}}"));
+        let wrong = error("explorer: {detector: {name: wavefrunt}}");
+        assert!(wrong.contains("wavefrunt") && wrong.contains("wavefront"), "{wrong}");
+        let unknown = error("explorer: {detector: {name: wavefront, min_size: 3}}");
+        assert!(unknown.contains("min_size"), "{unknown}");
+        let negative = error("explorer: {detector: {min_size_m: -1}}");
+        assert_eq!(negative, "explorer.detector.min_size_m is -1: must be finite and >= 0");
+        let neighbours = error("explorer: {detector: {neighbours: 6}}");
+        assert!(neighbours.contains("must be 4 or 8"), "{neighbours}");
+        let zero = error("navigation: {navigator: {control_period_s: 0}}");
+        assert_eq!(zero, "navigation.navigator.control_period_s is 0: must be finite and > 0");
+        let name = Preset::built_in("wdf").unwrap_err().to_string();
+        assert!(name.starts_with("there is no preset \"wdf\": must be one of wfd"), "{name}");
+    }
+}

@@ -1,0 +1,113 @@
+//! From frontiers to candidates: where the robot would stand, how far it is, and what
+//! speaks against going there.
+
+use super::blacklist::{Blacklist, Taboo};
+use super::record::{CandidateRecord, CandidateStatus};
+use super::settings::ExplorerSettings;
+use super::standing::standing_goal;
+use crate::frontier::Frontier;
+use crate::geometry::{Point, Pose};
+use crate::grid::GridInfo;
+use crate::planning::PathField;
+use crate::selection::{Candidate, GoalSelector, SelectionContext};
+
+/// A frontier, what is recorded of it, and the candidate if the robot could go there.
+#[derive(Debug)]
+pub struct Assessed {
+    /// For the decision record; `status` is final unless it is `Eligible`.
+    pub record: CandidateRecord,
+    /// The representative point.
+    pub target: Point,
+    /// What the strategies see: present unless no place to stand is connected.
+    pub candidate: Option<Candidate>,
+    /// Why it is left alone, when its status is `Taboo`.
+    pub taboo: Option<Taboo>,
+}
+
+/// What an assessment looks at besides the frontiers.
+pub struct Surroundings<'a> {
+    /// The settings.
+    pub settings: &'a ExplorerSettings,
+    /// Where the frontiers' cells lie.
+    pub info: &'a GridInfo,
+    /// How far it is to everywhere; `None` when the robot stands where it cannot.
+    pub field: Option<&'a PathField>,
+    /// Places to leave alone.
+    pub blacklist: &'a Blacklist,
+    /// Where the robot is.
+    pub robot: Pose,
+    /// Now, seconds.
+    pub now_s: f64,
+}
+
+impl Surroundings<'_> {
+    /// Assesses one frontier.
+    pub fn assess(&self, frontier: &Frontier) -> Assessed {
+        let settings = self.settings;
+        let target = settings.goal.representative.of(frontier, self.info);
+        let distance_m = self.robot.distance_to(target);
+        let goal = self.field.and_then(|field| {
+            standing_goal(field, &self.robot, target, settings.goal.search_radius_m, settings.goal.heading)
+        });
+        let size_m = frontier.size_m(self.info);
+        let candidate = goal.map(|goal| Candidate {
+            target,
+            goal,
+            size_cells: frontier.cells.len(),
+            size_m,
+            distance_m,
+            way_m: self.way_m(&goal),
+        });
+        let taboo = self.blacklist.check(target, self.now_s);
+        let status = if settings.region.as_ref().is_some_and(|region| !region.contains(target)) {
+            CandidateStatus::OutsideRegion
+        } else if taboo.is_some() {
+            CandidateStatus::Taboo
+        } else {
+            match goal {
+                None => CandidateStatus::Unreachable,
+                Some(goal) if self.robot.distance_to(goal.position()) < settings.goal.already_there_m => {
+                    CandidateStatus::AlreadyThere
+                }
+                Some(_) => CandidateStatus::Eligible,
+            }
+        };
+        let record = CandidateRecord {
+            id: frontier.id,
+            target: target.into(),
+            goal,
+            size_cells: frontier.cells.len(),
+            size_m,
+            distance_m,
+            path_m: None,
+            scores: Default::default(),
+            status,
+        };
+        Assessed { record, target, candidate, taboo }
+    }
+
+    fn way_m(&self, goal: &Pose) -> f64 {
+        self.field
+            .and_then(|field| field.cost_cells(self.info.cell_at(goal.position())))
+            .map_or(f64::INFINITY, |cells| cells * self.info.resolution_m())
+    }
+}
+
+/// Scores the eligible ones and puts them first, best first; the others follow in the
+/// order of their ids. Returns how many are eligible.
+pub fn rank(assessed: &mut [Assessed], selector: &mut dyn GoalSelector, robot: Pose) -> usize {
+    assessed.sort_by_key(|a| (a.record.status != CandidateStatus::Eligible, a.record.id));
+    let eligible = assessed.iter().filter(|a| a.record.status == CandidateStatus::Eligible).count();
+    let (first, _) = assessed.split_at_mut(eligible);
+    let candidates: Vec<Candidate> = first.iter().filter_map(|a| a.candidate.clone()).collect();
+    let scores = selector.score(&candidates, &SelectionContext { robot_in_map: robot });
+    let mut total = std::collections::BTreeMap::new();
+    for (assessed, score) in first.iter_mut().zip(scores) {
+        total.insert(assessed.record.id, score.total);
+        assessed.record.scores = score.parts;
+        assessed.record.scores.insert("total", score.total);
+    }
+    let total = |a: &Assessed| total.get(&a.record.id).copied().unwrap_or(f64::INFINITY);
+    first.sort_by(|a, b| total(a).total_cmp(&total(b)).then(a.record.id.cmp(&b.record.id)));
+    eligible
+}

@@ -1,0 +1,205 @@
+//! One decision: detect, assess, rank, and take the first to which there is a way.
+
+use super::assess::{Assessed, Surroundings, rank};
+use super::blacklist::{Blacklist, Taboo};
+use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind};
+use super::settings::ExplorerSettings;
+use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector};
+use crate::geometry::{Point, Pose};
+use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
+use crate::planning::{GlobalPlanner, PathField};
+use crate::robot::MapSnapshot;
+use crate::selection::GoalSelector;
+use std::sync::Arc;
+
+/// Where to go, when there is somewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Choice {
+    /// Where the robot shall stand.
+    pub goal: Pose,
+    /// The frontier's representative point.
+    pub target: Point,
+}
+
+/// What one decision found.
+#[derive(Clone, Debug)]
+pub struct Decided {
+    /// For the log.
+    pub record: DecisionRecord,
+    /// The goal, if there is one.
+    pub choice: Option<Choice>,
+    /// The target that is seen from where the robot stands, when only such are left.
+    pub here: Option<Point>,
+    /// What is left, by the reason for leaving it.
+    pub left_behind: LeftBehind,
+}
+
+impl Decided {
+    /// Why a run ends for which nothing is left to choose.
+    pub fn why_nothing_is_left(&self) -> (EndReason, String) {
+        let LeftBehind { frontiers, unreachable, failed, exhausted, outside_region } = self.left_behind;
+        if unreachable + failed > 0 {
+            let message = format!(
+                "{} of {frontiers} frontiers cannot be reached ({unreachable} without a place to stand that is \
+                 connected, {failed} where driving failed)",
+                unreachable + failed
+            );
+            (EndReason::AllUnreachable, message)
+        } else if exhausted > 0 || outside_region == 0 {
+            let message = format!("nothing more can be seen of the {exhausted} frontiers that are left");
+            (EndReason::Complete, message)
+        } else {
+            (EndReason::OutsideRegion, format!("all {outside_region} frontiers left lie outside the region"))
+        }
+    }
+}
+
+/// The algorithms that a decision wires together.
+pub struct Lookout {
+    detector: Box<dyn FrontierDetector>,
+    selector: Box<dyn GoalSelector>,
+    planner: Box<dyn GlobalPlanner>,
+    thresholds: Thresholds,
+    inflation: Inflation,
+    frontiers: Vec<Vec<Point>>,
+    /// The costmap made last, with the stamp of its map.
+    costmap: Option<(f64, Arc<Costmap>)>,
+}
+
+impl Lookout {
+    /// The algorithms that the settings name.
+    pub fn new(settings: &ExplorerSettings, inflation: Inflation) -> Self {
+        Self {
+            detector: settings.detector.name.build(&settings.detector_params()),
+            selector: settings.selection.build(),
+            planner: settings.planner.build(),
+            thresholds: settings.thresholds,
+            inflation,
+            frontiers: Vec::new(),
+            costmap: None,
+        }
+    }
+
+    /// The frontiers of the last decision: cells' centres in the map frame.
+    pub fn frontiers(&self) -> &[Vec<Point>] {
+        &self.frontiers
+    }
+
+    /// Whether the robot's centre may be at a point of the map.
+    pub fn can_stand(&mut self, map: &MapSnapshot, point: Point) -> bool {
+        let costmap = self.costmap(map);
+        costmap.is_passable(costmap.info().cell_at(point))
+    }
+
+    /// Weighs the frontiers of a map.
+    ///
+    /// # Errors
+    /// [`DetectError`] when this map gives no answer; that is not "no frontier".
+    pub fn decide(
+        &mut self,
+        settings: &ExplorerSettings,
+        blacklist: &Blacklist,
+        map: &MapSnapshot,
+        robot: Pose,
+        now_s: f64,
+    ) -> Result<Decided, DetectError> {
+        let grid = &map.grid;
+        let frontiers = self.detector.detect(&DetectionInput { grid, robot_in_map: robot })?;
+        self.frontiers = in_metres(&frontiers, grid.info());
+        let costmap = self.costmap(map);
+        // A robot that stands where it cannot reaches nothing: the recovery turn and
+        // the next map may free it.
+        let field = PathField::new(Arc::clone(&costmap), &robot).ok();
+        let surroundings = Surroundings { settings, info: grid.info(), field: field.as_ref(), blacklist, robot, now_s };
+        let mut assessed: Vec<Assessed> = frontiers.iter().map(|frontier| surroundings.assess(frontier)).collect();
+        let eligible = rank(&mut assessed, &mut *self.selector, robot);
+        let choice = self.first_with_a_way(&mut assessed[..eligible], &costmap, &robot);
+        let left_behind = count(&assessed);
+        let here = if choice.is_none() { nearest_here(&assessed) } else { None };
+        let why = explain(&assessed, choice.as_ref(), self.selector.name(), &left_behind);
+        let record = DecisionRecord {
+            time_s: now_s,
+            pose: robot,
+            candidates: assessed.into_iter().map(|a| a.record).collect(),
+            goal: choice.map(|c| c.goal),
+            why,
+        };
+        Ok(Decided { record, choice, here, left_behind })
+    }
+
+    /// Asks the planner in order of rank; what has no path says so in its record.
+    fn first_with_a_way(&mut self, ranked: &mut [Assessed], costmap: &Costmap, robot: &Pose) -> Option<Choice> {
+        for assessed in ranked {
+            let Some(goal) = assessed.candidate.as_ref().map(|c| c.goal) else { continue };
+            match self.planner.plan(costmap, robot, &goal) {
+                Ok(path) => {
+                    assessed.record.path_m = Some(path.length_m());
+                    assessed.record.status = CandidateStatus::Chosen;
+                    return Some(Choice { goal, target: assessed.target });
+                }
+                Err(_) => assessed.record.status = CandidateStatus::NoPath,
+            }
+        }
+        None
+    }
+
+    /// The costmap that came with the map, or our own, made once for each map.
+    fn costmap(&mut self, map: &MapSnapshot) -> Arc<Costmap> {
+        if let Some(costmap) = &map.costmap {
+            return Arc::clone(costmap);
+        }
+        match &self.costmap {
+            Some((stamp_s, costmap)) if *stamp_s == map.stamp_s => Arc::clone(costmap),
+            _ => {
+                let costmap = Arc::new(Costmap::inflate(&map.grid, &self.thresholds, &self.inflation));
+                self.costmap = Some((map.stamp_s, Arc::clone(&costmap)));
+                costmap
+            }
+        }
+    }
+}
+
+fn in_metres(frontiers: &[Frontier], info: &GridInfo) -> Vec<Vec<Point>> {
+    frontiers.iter().map(|f| f.cells.iter().map(|&cell| info.center(cell)).collect()).collect()
+}
+
+/// The nearest frontier that is seen from where the robot stands.
+fn nearest_here(assessed: &[Assessed]) -> Option<Point> {
+    assessed
+        .iter()
+        .filter(|a| a.record.status == CandidateStatus::AlreadyThere)
+        .min_by(|a, b| a.record.distance_m.total_cmp(&b.record.distance_m))
+        .map(|a| a.target)
+}
+
+fn count(assessed: &[Assessed]) -> LeftBehind {
+    let mut left = LeftBehind { frontiers: assessed.len(), ..LeftBehind::default() };
+    for a in assessed {
+        match (a.record.status, a.taboo) {
+            (CandidateStatus::OutsideRegion, _) => left.outside_region += 1,
+            (CandidateStatus::Unreachable | CandidateStatus::NoPath, _) => left.unreachable += 1,
+            (CandidateStatus::Taboo, Some(Taboo::Exhausted)) => left.exhausted += 1,
+            (CandidateStatus::Taboo, _) => left.failed += 1,
+            (CandidateStatus::Chosen | CandidateStatus::Eligible | CandidateStatus::AlreadyThere, _) => {}
+        }
+    }
+    left
+}
+
+/// One sentence about the decision.
+fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left: &LeftBehind) -> String {
+    let skipped = assessed.iter().filter(|a| a.record.status == CandidateStatus::NoPath).count();
+    match choice {
+        Some(choice) => {
+            let passed_over = if skipped > 0 { format!(", {skipped} before it had no path") } else { String::new() };
+            format!(
+                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}",
+                left.frontiers, choice.target.x, choice.target.y
+            )
+        }
+        None => format!(
+            "no goal among {} frontiers: {} unreachable, {} failed, {} exhausted, {} outside the region",
+            left.frontiers, left.unreachable, left.failed, left.exhausted, left.outside_region
+        ),
+    }
+}

@@ -1,0 +1,229 @@
+//! The state machine, driven by a robot that jumps to its goals.
+
+use super::*;
+use crate::explore::{PatienceSettings, TurnSettings};
+use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
+use crate::robot::{Navigation, PoseError};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+const POINT_ROBOT: Inflation = Inflation { inscribed_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
+
+/// A robot that sees three cells far, arrives at every goal at once and turns at once.
+struct Teleporter {
+    world: OccupancyGrid,
+    map: OccupancyGrid,
+    pose: Pose,
+    stamp_s: f64,
+    navigation: Navigation,
+    aborts: bool,
+    log: Vec<Command>,
+}
+
+impl Teleporter {
+    fn new(world: &str, x: f64, y: f64) -> Self {
+        let world = OccupancyGrid::from_ascii(world).unwrap();
+        let map = OccupancyGrid::filled(*world.info(), OccupancyGrid::UNKNOWN);
+        let navigation = Navigation { command: 0, state: NavigationState::Idle };
+        Self { world, map, pose: Pose::new(x, y, 0.0), stamp_s: 0.0, navigation, aborts: false, log: Vec::new() }
+    }
+
+    fn observation(&mut self) -> Observation {
+        let here = self.map.info().cell_at(self.pose.position());
+        for dy in -3..=3 {
+            for dx in -3..=3 {
+                let cell = here.offset((dx, dy));
+                if let Some(value) = self.world.get(cell) {
+                    self.map.set(cell, value);
+                }
+            }
+        }
+        self.stamp_s += 1.0;
+        Observation {
+            stamp_s: self.stamp_s,
+            pose_in_map: Ok(self.pose),
+            map: Some(MapSnapshot { stamp_s: self.stamp_s, grid: Arc::new(self.map.clone()), costmap: None }),
+            scan: None,
+            navigation: self.navigation.clone(),
+        }
+    }
+
+    fn obey(&mut self, command: &Command) {
+        let (id, state) = match command {
+            Command::Hold => (0, NavigationState::Idle),
+            Command::Turn { id, .. } => (*id, NavigationState::Succeeded),
+            Command::Drive { id, .. } if self.aborts => (*id, NavigationState::Aborted("no way".to_owned())),
+            Command::Drive { id, goal_in_map } => {
+                self.pose = *goal_in_map;
+                (*id, NavigationState::Succeeded)
+            }
+        };
+        if self.log.last() != Some(command) {
+            self.log.push(command.clone());
+        }
+        self.navigation = Navigation { command: id, state };
+    }
+
+    fn explore(&mut self, settings: ExplorerSettings) -> (End, Explorer) {
+        let mut explorer = Explorer::new(settings, POINT_ROBOT).unwrap();
+        for _ in 0..2000 {
+            let observation = self.observation();
+            let decision = explorer.step(&observation);
+            self.obey(&decision.command);
+            if let Some(end) = decision.end {
+                return (end, explorer);
+            }
+        }
+        panic!("the run did not end");
+    }
+}
+
+/// Two rooms and a corridor, 17 x 9 m.
+const HOUSE: &str = "
+    #################
+    #......#........#
+    #......#........#
+    #......#........#
+    #...............#
+    #......#........#
+    #......####.#####
+    #...............#
+    #################";
+
+#[test]
+fn explores_everything_and_says_so() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let (end, explorer) = robot.explore(ExplorerSettings::default());
+    assert_eq!(end.reason, EndReason::Complete);
+    assert_eq!(end.left_behind, LeftBehind::default());
+    let thresholds = Thresholds::default();
+    for index in 0..robot.world.info().len() {
+        let cell = robot.world.info().cell(index);
+        if robot.world.state(cell, &thresholds) == CellState::Free {
+            assert_eq!(robot.map.state(cell, &thresholds), CellState::Free, "{cell:?}");
+        }
+    }
+    let counts = explorer.counts();
+    assert!(counts.goals_sent >= 3 && counts.goals_reached == counts.goals_sent && counts.goals_failed == 0);
+    // Topiwala 2018: a full turn at the start and at every goal.
+    assert_eq!(counts.turns, counts.goals_reached + 1);
+    assert!(matches!(robot.log[0], Command::Turn { id: 1, angle_rad } if angle_rad == TAU));
+}
+
+#[test]
+fn without_turns_it_drives_at_once() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let turns = TurnSettings { at_start: false, at_goal: false, recoveries: 0 };
+    let (end, explorer) = robot.explore(ExplorerSettings { turns, ..ExplorerSettings::default() });
+    assert_eq!((end.reason, explorer.counts().turns), (EndReason::Complete, 0));
+    assert!(robot.log.iter().all(|c| !matches!(c, Command::Turn { .. })));
+}
+
+#[test]
+fn the_nearest_goal_comes_first() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT).unwrap();
+    let record = loop {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+        if let Some(record) = decision.record {
+            break record;
+        }
+    };
+    let distances: Vec<f64> = record.candidates.iter().map(|c| c.distance_m).collect();
+    assert!(distances.windows(2).all(|pair| pair[0] <= pair[1]), "{distances:?}");
+    assert_eq!(record.candidates[0].status, crate::explore::CandidateStatus::Chosen);
+    assert!(record.why.starts_with("nearest: best of"));
+}
+
+#[test]
+fn goals_that_fail_end_in_all_unreachable_after_the_recovery_turns() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    robot.aborts = true;
+    let (end, explorer) = robot.explore(ExplorerSettings::default());
+    assert_eq!(end.reason, EndReason::AllUnreachable);
+    assert!(end.left_behind.failed > 0 && end.left_behind.unreachable == 0);
+    assert_eq!(explorer.counts().recoveries, 2);
+    assert!(explorer.counts().goals_failed >= 4);
+}
+
+#[test]
+fn a_frontier_that_stays_is_visited_twice_and_then_left() {
+    // The robot never learns the cell behind the window.
+    let mut robot = Teleporter::new("#####\n#...?\n#...#\n#####", 1.5, 1.5);
+    let (end, explorer) = robot.explore(ExplorerSettings::default());
+    assert_eq!(end.reason, EndReason::Complete);
+    assert_eq!((end.left_behind.exhausted, end.left_behind.frontiers), (1, 1));
+    assert!(explorer.counts().turns <= 4);
+}
+
+#[test]
+fn frontiers_outside_the_region_are_left() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let region = crate::geometry::Polygon::try_from(vec![[0.0, 0.0], [6.9, 0.0], [6.9, 9.0], [0.0, 9.0]]).unwrap();
+    let (end, _) = robot.explore(ExplorerSettings { region: Some(region), ..ExplorerSettings::default() });
+    assert_eq!(end.reason, EndReason::OutsideRegion);
+    assert!(end.left_behind.outside_region > 0);
+    assert_eq!(robot.map.get(Cell::new(14, 6)), Some(OccupancyGrid::UNKNOWN));
+}
+
+#[test]
+fn returns_to_where_it_began() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let (end, _) = robot.explore(ExplorerSettings { return_to_start: true, ..ExplorerSettings::default() });
+    assert_eq!(end.reason, EndReason::Complete);
+    assert!(robot.pose.distance_to(Point::new(2.5, 2.5)) < 1e-9);
+}
+
+#[test]
+fn a_lost_pose_pauses_and_ends_only_when_it_lasts() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT).unwrap();
+    let mut lost = robot.observation();
+    lost.pose_in_map = Err(PoseError::NotYet { map_frame: "map".to_owned(), base_frame: "base_link".to_owned() });
+    for tick in 0..59 {
+        lost.stamp_s = f64::from(tick);
+        let decision = explorer.step(&lost);
+        assert_eq!((decision.phase, decision.command, decision.end), (Phase::WaitingForPose, Command::Hold, None));
+    }
+    lost.stamp_s = 60.0;
+    assert_eq!(explorer.step(&lost).end.map(|e| e.reason), Some(EndReason::NoPose));
+}
+
+#[test]
+fn no_map_and_no_time_have_their_own_ends() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
+    let settings = ExplorerSettings { turns, ..ExplorerSettings::default() };
+    let mut explorer = Explorer::new(settings.clone(), POINT_ROBOT).unwrap();
+    let mut blind = robot.observation();
+    blind.map = None;
+    let mut end = None;
+    for tick in 0..=61 {
+        blind.stamp_s = f64::from(tick);
+        end = explorer.step(&blind).end;
+    }
+    assert_eq!(end.map(|e| e.reason), Some(EndReason::NoMap));
+
+    let patience = PatienceSettings { time_limit_s: Some(5.0), ..Default::default() };
+    let (end, _) = robot.explore(ExplorerSettings { patience, ..settings });
+    assert_eq!((end.reason, end.time_s), (EndReason::TimeLimit, end.time_s));
+}
+
+#[test]
+fn a_robot_off_its_map_waits_for_a_better_one() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
+    let mut explorer = Explorer::new(ExplorerSettings { turns, ..Default::default() }, POINT_ROBOT).unwrap();
+    let mut off = robot.observation();
+    off.pose_in_map = Ok(Pose::new(-50.0, 0.0, 0.0));
+    for tick in 0..30 {
+        off.stamp_s = f64::from(tick);
+        let decision = explorer.step(&off);
+        assert_eq!((decision.phase, decision.end), (Phase::WaitingForMap, None));
+    }
+    robot.stamp_s = 31.0;
+    let decision = explorer.step(&robot.observation());
+    assert_eq!(decision.end, None);
+    assert!(decision.record.is_some(), "goes on as soon as the map serves");
+}

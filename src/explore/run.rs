@@ -1,0 +1,52 @@
+//! The one driver loop: it serves the node, the simulator and the replay.
+
+use super::{Decision, End, EndReason, Explorer};
+use crate::robot::{Observation, Robot, RobotError};
+
+/// Looks on while a run goes on: records, progress bars, publishers.
+pub trait Watcher<R> {
+    /// Called before each step.
+    fn before_step(&mut self, _observation: &Observation) {}
+
+    /// Called after each step, before the command goes out.
+    fn after_step(&mut self, robot: &R, explorer: &Explorer, observation: &Observation, decision: &Decision);
+
+    /// Whether the user wants the run to stop.
+    fn stop_requested(&self) -> bool {
+        false
+    }
+}
+
+/// Runs the explorer on a robot until one of them ends.
+pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl Watcher<R>) -> End {
+    let mut now_s = 0.0;
+    loop {
+        let observation = match robot.observe() {
+            Ok(observation) => observation,
+            Err(error) => return explorer.end_now(reason_of(&error), now_s, &error.to_string()),
+        };
+        now_s = observation.stamp_s;
+        watcher.before_step(&observation);
+        let decision = explorer.step(&observation);
+        watcher.after_step(robot, explorer, &observation, &decision);
+        if let Err(error) = robot.command(&decision.command) {
+            return explorer.end_now(reason_of(&error), now_s, &error.to_string());
+        }
+        if let Some(end) = decision.end {
+            return end;
+        }
+        if watcher.stop_requested() {
+            // A robot that cannot be told to hold any more is as good as stopped.
+            let _ = robot.command(&crate::robot::Command::Hold);
+            return explorer.end_now(EndReason::Interrupted, now_s, "stopped by the user");
+        }
+    }
+}
+
+const fn reason_of(error: &RobotError) -> EndReason {
+    match error {
+        RobotError::Ended => EndReason::RecordingEnded,
+        RobotError::Interrupted => EndReason::Interrupted,
+        RobotError::Disconnected(_) => EndReason::Disconnected,
+    }
+}

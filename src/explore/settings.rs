@@ -1,0 +1,203 @@
+//! All that decides how an explorer behaves. Deserialised from a preset, validated
+//! before use; every field has a default, so that a preset says only what is its own.
+
+use super::blacklist::TabooConfig;
+use super::standing::GoalHeading;
+use crate::frontier::{DetectorKind, DetectorParams, DetectorParamsError, Reachability, Representative};
+use crate::geometry::Polygon;
+use crate::grid::{Neighbourhood, Thresholds};
+use crate::planning::PlannerKind;
+use crate::range::OutOfRange;
+use crate::selection::SelectorConfig;
+use serde::{Deserialize, Serialize};
+
+/// A setting that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SettingsError {
+    /// A number out of its range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
+    /// A parameter of the detector.
+    #[error(transparent)]
+    Detector(#[from] DetectorParamsError),
+}
+
+/// When the robot turns round to look about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TurnSettings {
+    /// Before the first decision.
+    pub at_start: bool,
+    /// On arrival at every goal.
+    pub at_goal: bool,
+    /// How many recovery turns are made, while frontiers remain to which there is no
+    /// way, before giving up.
+    pub recoveries: u32,
+}
+
+impl Default for TurnSettings {
+    fn default() -> Self {
+        Self { at_start: true, at_goal: true, recoveries: 2 }
+    }
+}
+
+/// How a goal is derived from a frontier.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GoalSettings {
+    /// The point that stands for the frontier.
+    pub representative: Representative,
+    /// How far from it a place to stand is looked for, metres.
+    pub search_radius_m: f64,
+    /// Which way the robot looks at the goal.
+    pub heading: GoalHeading,
+    /// The robot stands at a goal already when nearer than this, metres.
+    pub already_there_m: f64,
+    /// Decide anew every so many seconds while driving; never when absent, as the
+    /// papers that drive to the end of each goal have it.
+    pub reconsider_period_s: Option<f64>,
+}
+
+impl Default for GoalSettings {
+    fn default() -> Self {
+        Self {
+            representative: Representative::Median,
+            search_radius_m: 2.0,
+            heading: GoalHeading::TowardFrontier,
+            already_there_m: 0.25,
+            reconsider_period_s: None,
+        }
+    }
+}
+
+/// How long is waited for what.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PatienceSettings {
+    /// The robot counts as stuck after this time at one position, seconds.
+    pub progress_timeout_s: f64,
+    /// What counts as another position, metres.
+    pub progress_distance_m: f64,
+    /// The longest that one goal may take, seconds.
+    pub goal_timeout_s: f64,
+    /// How long a map that shows the newest sights is waited for, seconds; then the
+    /// last one serves (gmapping sends none while the robot stands).
+    pub settle_s: f64,
+    /// The run ends when no usable map came for so long, seconds.
+    pub map_timeout_s: f64,
+    /// The run ends when the robot did not know where it was for so long, seconds.
+    pub pose_timeout_s: f64,
+    /// The run ends after so long, seconds; never when absent.
+    pub time_limit_s: Option<f64>,
+}
+
+impl Default for PatienceSettings {
+    fn default() -> Self {
+        Self {
+            progress_timeout_s: 20.0,
+            progress_distance_m: 0.25,
+            goal_timeout_s: 300.0,
+            settle_s: 5.0,
+            map_timeout_s: 60.0,
+            pose_timeout_s: 60.0,
+            time_limit_s: None,
+        }
+    }
+}
+
+/// Which detector, with its parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct DetectorSettings {
+    /// Its name.
+    pub name: DetectorKind,
+    /// Which cells are adjacent: 4 or 8.
+    pub neighbours: Neighbourhood,
+    /// What counts as reachable.
+    pub reachability: Reachability,
+    /// Smaller frontiers are dropped; number of cells times resolution, metres.
+    pub min_size_m: f64,
+}
+
+/// The explorer's settings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExplorerSettings {
+    /// Where free ends and occupied begins.
+    pub thresholds: Thresholds,
+    /// How frontiers are found.
+    pub detector: DetectorSettings,
+    /// Which frontier comes first.
+    pub selection: SelectorConfig,
+    /// How ways are found.
+    pub planner: PlannerKind,
+    /// How a goal is derived from a frontier.
+    pub goal: GoalSettings,
+    /// When to look about.
+    pub turns: TurnSettings,
+    /// What becomes of goals that fail.
+    pub taboo: TabooConfig,
+    /// How long is waited for what.
+    pub patience: PatienceSettings,
+    /// Only frontiers inside are explored: corners [x, y] in metres of the map frame.
+    pub region: Option<Polygon>,
+    /// Drive back to where the run began before it ends.
+    pub return_to_start: bool,
+}
+
+impl Default for ExplorerSettings {
+    fn default() -> Self {
+        Self {
+            thresholds: Thresholds::default(),
+            detector: DetectorSettings::default(),
+            selection: SelectorConfig::Nearest,
+            planner: PlannerKind::default(),
+            goal: GoalSettings::default(),
+            turns: TurnSettings::default(),
+            taboo: TabooConfig::default(),
+            patience: PatienceSettings::default(),
+            region: None,
+            return_to_start: false,
+        }
+    }
+}
+
+impl ExplorerSettings {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`SettingsError`] that names the key, the value and what is allowed.
+    pub fn validate(&self) -> Result<(), SettingsError> {
+        let (goal, patience, taboo) = (&self.goal, &self.patience, &self.taboo);
+        for (key, value) in [
+            ("goal.search_radius_m", goal.search_radius_m),
+            ("goal.reconsider_period_s", goal.reconsider_period_s.unwrap_or(1.0)),
+            ("patience.progress_timeout_s", patience.progress_timeout_s),
+            ("patience.progress_distance_m", patience.progress_distance_m),
+            ("patience.goal_timeout_s", patience.goal_timeout_s),
+            ("patience.map_timeout_s", patience.map_timeout_s),
+            ("patience.pose_timeout_s", patience.pose_timeout_s),
+            ("patience.time_limit_s", patience.time_limit_s.unwrap_or(1.0)),
+            ("taboo.radius_m", taboo.radius_m),
+            ("taboo.max_failures", f64::from(taboo.max_failures)),
+            ("taboo.max_visits", f64::from(taboo.max_visits)),
+        ] {
+            OutOfRange::unless_positive(key, value)?;
+        }
+        for (key, value) in [
+            ("goal.already_there_m", goal.already_there_m),
+            ("patience.settle_s", patience.settle_s),
+            ("taboo.expiry_s", taboo.expiry_s),
+        ] {
+            OutOfRange::unless_not_negative(key, value)?;
+        }
+        Ok(self.detector_params().validate()?)
+    }
+
+    /// The detector's parameters with the thresholds that apply to all detectors.
+    #[must_use]
+    pub fn detector_params(&self) -> DetectorParams {
+        let DetectorSettings { name: _, neighbours, reachability, min_size_m } = self.detector;
+        DetectorParams { neighbours, reachability, min_size_m, thresholds: self.thresholds }
+    }
+}

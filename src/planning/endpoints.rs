@@ -1,0 +1,80 @@
+//! Where a search may start and end on a costmap.
+
+use super::{Path, PlanError};
+use crate::geometry::{Point, Pose};
+use crate::grid::{Cell, Costmap, GridInfo, LETHAL_COST, Neighbourhood};
+use std::collections::VecDeque;
+
+/// How far a robot that stands too near to an obstacle looks for a way out, metres.
+/// The map may close in on it by a cell or two as it becomes known.
+pub const ESCAPE_RADIUS_M: f64 = 0.4;
+
+/// Index of the cell from which to search: the robot's own, or the nearest passable
+/// one that it can get to without crossing an obstacle.
+///
+/// # Errors
+/// [`PlanError::StartOutsideMap`], or [`PlanError::StartOccupied`] when no passable
+/// cell lies within [`ESCAPE_RADIUS_M`].
+pub fn start_index(costmap: &Costmap, start: &Pose) -> Result<usize, PlanError> {
+    let info = costmap.info();
+    let cell = info.cell_at(start.position());
+    let Some(index) = info.index(cell) else {
+        return Err(PlanError::StartOutsideMap { x: start.x, y: start.y });
+    };
+    if costmap.is_passable(cell) {
+        return Ok(index);
+    }
+    nearest_passable(costmap, cell, ESCAPE_RADIUS_M)
+        .and_then(|cell| info.index(cell))
+        .ok_or(PlanError::StartOccupied { x: start.x, y: start.y })
+}
+
+/// Index of the goal's cell.
+///
+/// # Errors
+/// [`PlanError::GoalOutsideMap`] or [`PlanError::GoalOccupied`].
+pub fn goal_index(costmap: &Costmap, goal: &Pose) -> Result<usize, PlanError> {
+    let cell = costmap.info().cell_at(goal.position());
+    match costmap.info().index(cell) {
+        None => Err(PlanError::GoalOutsideMap { x: goal.x, y: goal.y }),
+        Some(_) if !costmap.is_passable(cell) => Err(PlanError::GoalOccupied { x: goal.x, y: goal.y }),
+        Some(index) => Ok(index),
+    }
+}
+
+/// The passable cell nearest to `from` by a flood that no obstacle lets through.
+fn nearest_passable(costmap: &Costmap, from: Cell, radius_m: f64) -> Option<Cell> {
+    let reach = costmap.info().cells(radius_m).floor() as i64;
+    flood(costmap.info(), from, |cell| costmap.cost(cell) != LETHAL_COST || cell == from)
+        .take_while(|cell| cell.distance_squared(from) <= 2 * reach * reach)
+        .filter(|cell| cell.distance_squared(from) <= reach * reach)
+        .find(|&cell| costmap.is_passable(cell))
+}
+
+/// Cells in the order of a breadth-first flood over the cells that are `open`.
+pub fn flood<'a>(info: &'a GridInfo, from: Cell, open: impl Fn(Cell) -> bool + 'a) -> impl Iterator<Item = Cell> + 'a {
+    let mut queue = VecDeque::from([from]);
+    let mut seen = std::collections::HashSet::from([from]);
+    std::iter::from_fn(move || {
+        let cell = queue.pop_front()?;
+        for next in info.neighbours(cell, Neighbourhood::Eight) {
+            if open(next) && seen.insert(next) {
+                queue.push_back(next);
+            }
+        }
+        Some(cell)
+    })
+}
+
+/// A path along cells: it starts at the robot's own position, passes the cells'
+/// centres, each pose facing the next, and ends at the goal with the goal's heading.
+#[must_use]
+pub fn path_along(info: &GridInfo, cells: &[usize], start: &Pose, goal: &Pose, cost: f64) -> Path {
+    let inner = cells.len().saturating_sub(1).max(1);
+    let mut points: Vec<Point> = vec![start.position()];
+    points.extend(cells.iter().take(inner).skip(1).map(|&index| info.center(info.cell(index))));
+    points.push(goal.position());
+    let mut poses: Vec<Pose> = points.windows(2).map(|pair| Pose::facing(pair[0], pair[1])).collect();
+    poses.push(*goal);
+    Path { poses, cost }
+}

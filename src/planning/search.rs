@@ -1,0 +1,89 @@
+//! Best-first search over the lattice, shared by Dijkstra, A* and the path field.
+//!
+//! Dijkstra 1959; Hart, Nilsson and Raphael 1968. The octile distance is a consistent
+//! heuristic, so no cell is expanded twice with different costs, and the keys grow by
+//! at most two steps: a bucket queue orders them. O(cells), no allocation once warm.
+
+use super::bucket_queue::BucketQueue;
+use super::lattice::{Lattice, MAX_STEP};
+
+/// Cost of a cell that was not reached.
+pub const UNREACHED: u32 = u32::MAX;
+
+/// Direction entry of a cell that was not reached, or is the start.
+const NO_DIRECTION: u8 = 0xff;
+
+/// The costs and ways that a search found; kept between searches for its memory.
+#[derive(Clone, Debug)]
+pub struct Search {
+    queue: BucketQueue,
+    cost: Vec<u32>,
+    came_by: Vec<u8>,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self { queue: BucketQueue::new(2 * MAX_STEP), cost: Vec::new(), came_by: Vec::new() }
+    }
+}
+
+impl Search {
+    /// Searches from `start` until `goal` is settled, or everywhere without one.
+    /// Returns whether the goal was reached (true without one).
+    pub fn run(&mut self, lattice: &Lattice<'_>, start: usize, goal: Option<usize>, heuristic: bool) -> bool {
+        self.queue.clear();
+        self.cost.clear();
+        self.cost.resize(lattice.len(), UNREACHED);
+        self.came_by.clear();
+        self.came_by.resize(lattice.len(), NO_DIRECTION);
+        let estimate = |index: usize| match goal {
+            Some(goal) if heuristic => lattice.octile(index, goal),
+            _ => 0,
+        };
+        self.cost[start] = 0;
+        self.queue.push(estimate(start), start as u32);
+        while let Some((key, item)) = self.queue.pop() {
+            let index = item as usize;
+            let cost = self.cost[index];
+            // An older entry of a cell that has been reached more cheaply since.
+            if key > cost + estimate(index) {
+                continue;
+            }
+            if goal == Some(index) {
+                return true;
+            }
+            let (costs, came_by, queue) = (&mut self.cost, &mut self.came_by, &mut self.queue);
+            lattice.for_each_step(index, |step| {
+                let through_here = cost + step.cost;
+                if through_here < costs[step.to] {
+                    costs[step.to] = through_here;
+                    came_by[step.to] = step.direction;
+                    queue.push(through_here + estimate(step.to), step.to as u32);
+                }
+            });
+        }
+        goal.is_none()
+    }
+
+    /// Cost of the cheapest way to a cell in lattice units, `None` when not reached.
+    #[must_use]
+    pub fn cost(&self, index: usize) -> Option<u32> {
+        self.cost.get(index).copied().filter(|&cost| cost != UNREACHED)
+    }
+
+    /// The cells from the start to `goal`, both included; empty when not reached.
+    #[must_use]
+    pub fn way(&self, lattice: &Lattice<'_>, goal: usize) -> Vec<usize> {
+        if self.cost(goal).is_none() {
+            return Vec::new();
+        }
+        let mut way = vec![goal];
+        let mut here = goal;
+        while self.came_by[here] != NO_DIRECTION {
+            here = lattice.before(here, self.came_by[here]);
+            way.push(here);
+        }
+        way.reverse();
+        way
+    }
+}

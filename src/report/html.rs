@@ -1,0 +1,220 @@
+//! The report of a run as one HTML file that needs nothing beside it.
+//!
+//! The page is made from what `run.json` holds, so it can be made again from that
+//! file. What the computer took is left out: the same run gives the same page.
+
+use super::ReportError;
+use super::plots;
+use super::run_json::RunRecord;
+use super::series::COVERAGE_SHARES;
+use super::theme::{Ink, Rgb, Theme};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use minijinja::Environment;
+use minijinja::value::Serde;
+use serde::Serialize;
+
+/// The page; `.html` in its name has the template engine escape all strings.
+const TEMPLATE_NAME: &str = "report.html.j2";
+const TEMPLATE: &str = include_str!("report.html.j2");
+
+/// Candidates of a decision that the page shows; the rest is counted.
+const SHOWN_CANDIDATES: usize = 15;
+
+/// What a page is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct HtmlReport<'a, D> {
+    /// The run.
+    pub run: &'a RunRecord<D>,
+    /// The final map as a PNG file.
+    pub map_png: &'a [u8],
+    /// The animation as a GIF file, if there is one.
+    pub animation_gif: Option<&'a [u8]>,
+    /// The colours of both, for the legend.
+    pub theme: Theme,
+}
+
+/// What the template fills in.
+#[derive(Serialize)]
+struct Page<'a, D> {
+    run: &'a RunRecord<D>,
+    headline: String,
+    figures: Vec<Figure>,
+    milestones: Vec<[String; 3]>,
+    legend: Vec<LegendEntry>,
+    gradient: String,
+    shown_candidates: usize,
+    coverage_svg: String,
+    distance_svg: String,
+    map_png: String,
+    animation_gif: Option<String>,
+}
+
+/// A figure on the page.
+#[derive(Serialize)]
+struct Figure {
+    name: &'static str,
+    value: String,
+}
+
+/// An entry of the legend.
+#[derive(Serialize)]
+struct LegendEntry {
+    name: &'static str,
+    color: String,
+}
+
+impl<D: Serialize> HtmlReport<'_, D> {
+    /// The page.
+    ///
+    /// # Errors
+    /// [`ReportError::Template`] when it cannot be filled in, [`ReportError::Plot`]
+    /// when a chart cannot be drawn.
+    pub fn to_html(&self) -> Result<String, ReportError> {
+        let mut environment = Environment::new();
+        environment.add_filter("fixed", |value: Option<f64>, decimals: usize| fixed(value, decimals));
+        environment.add_filter("clock", |value: f64| clock(value));
+        environment.add_filter("words", |value: String| value.replace('_', " "));
+        environment.add_template(TEMPLATE_NAME, TEMPLATE)?;
+        let page = Page {
+            run: self.run,
+            headline: headline(self.run),
+            figures: figures(self.run),
+            milestones: milestones(self.run),
+            legend: legend(self.theme),
+            gradient: self.theme.gradient_stops().map(css).join(", "),
+            shown_candidates: SHOWN_CANDIDATES,
+            coverage_svg: plots::coverage_svg(&self.run.series)?,
+            distance_svg: plots::distance_svg(&self.run.series)?,
+            map_png: STANDARD.encode(self.map_png),
+            animation_gif: self.animation_gif.map(|gif| STANDARD.encode(gif)),
+        };
+        Ok(environment.get_template(TEMPLATE_NAME)?.render(Serde(&page))?)
+    }
+}
+
+/// Why it ended and what it came to, in a sentence or two.
+fn headline<D>(run: &RunRecord<D>) -> String {
+    format!(
+        "{} {:.1} % of the world was covered in {} and {:.1} m.",
+        run.end_message,
+        run.coverage * 100.0,
+        clock(run.sim_time_s),
+        run.distance_m
+    )
+}
+
+/// The figures at the top of the page.
+fn figures<D>(run: &RunRecord<D>) -> Vec<Figure> {
+    let figure = |name, value| Figure { name, value };
+    vec![
+        figure("coverage", format!("{:.1} %", run.coverage * 100.0)),
+        figure("time", clock(run.sim_time_s)),
+        figure("distance", format!("{:.1} m", run.distance_m)),
+        figure("turned", format!("{:.1} turns", run.turned_rad / std::f64::consts::TAU)),
+        figure("goals reached", format!("{} of {}", run.counts.goals_reached, run.goals_sent)),
+        figure("goals failed", run.goals_failed.to_string()),
+        figure("area mapped", format!("{:.1} m²", run.known_area_m2)),
+        figure("frontiers left", run.left_behind.frontiers.to_string()),
+        figure("collisions", run.collisions.to_string()),
+    ]
+}
+
+/// When each share of coverage was reached: share, time, distance.
+fn milestones<D>(run: &RunRecord<D>) -> Vec<[String; 3]> {
+    let row = |(name, share): (&str, f64)| {
+        let time_s = run.time_to_coverage_s.get(name).copied().flatten();
+        let distance_m = run.distance_to_coverage_m.get(name).copied().flatten();
+        [
+            format!("{:.0} %", share * 100.0),
+            time_s.map_or_else(|| "not reached".to_owned(), clock),
+            distance_m.map_or_else(|| "–".to_owned(), |distance_m| format!("{distance_m:.1} m")),
+        ]
+    };
+    COVERAGE_SHARES.into_iter().map(row).collect()
+}
+
+/// What the colours of the pictures mean.
+fn legend(theme: Theme) -> Vec<LegendEntry> {
+    let entries = [
+        ("free", Ink::Free),
+        ("unknown", Ink::Unknown),
+        ("obstacle", Ink::Occupied),
+        ("frontier", Ink::Frontier),
+        ("robot", Ink::Robot),
+        ("goal", Ink::Goal),
+        ("goal given up", Ink::Taboo),
+    ];
+    entries.into_iter().map(|(name, ink)| LegendEntry { name, color: css(theme.color(ink)) }).collect()
+}
+
+/// A colour as style sheets write it.
+fn css([red, green, blue]: Rgb) -> String {
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// A number with some decimals, a dash for none.
+fn fixed(value: Option<f64>, decimals: usize) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+}
+
+/// Seconds as a person says them.
+fn clock(time_s: f64) -> String {
+    if time_s < 59.95 {
+        return format!("{time_s:.1} s");
+    }
+    let whole = time_s.round() as u64;
+    let (hours, minutes, seconds) = (whole / 3600, whole / 60 % 60, whole % 60);
+    if hours > 0 { format!("{hours} h {minutes} min {seconds} s") } else { format!("{minutes} min {seconds} s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    fn page(gif: Option<&[u8]>) -> String {
+        HtmlReport { run: &sample::run(), map_png: b"png", animation_gif: gif, theme: Theme::Clear }.to_html().unwrap()
+    }
+
+    #[test]
+    fn the_page_stands_alone_and_is_always_the_same() {
+        let page = page(Some(b"gif"));
+        assert!(page.contains("data:image/png;base64,cG5n") && page.contains("data:image/gif;base64,Z2lm"));
+        assert_eq!(page.matches("<svg").count(), 2);
+        for elsewhere in ["href=\"http", "src=\"http", "<script", "@import"] {
+            assert!(!page.contains(elsewhere), "{elsewhere}");
+        }
+        assert_eq!(page, self::page(Some(b"gif")));
+        assert!(!self::page(None).contains("image/gif"));
+    }
+
+    #[test]
+    fn strings_are_escaped() {
+        let page = page(None);
+        assert!(page.contains("rooms &lt;b&gt;&amp;&lt;&#x2f;b&gt;"));
+        assert!(page.contains("2 &lt;frontiers&gt; &amp;"));
+        assert!(!page.contains("<frontiers>"));
+    }
+
+    #[test]
+    fn a_page_from_the_file_is_the_page_from_the_run() {
+        let mut run = sample::run();
+        for point in &mut run.series {
+            point.coverage = (point.coverage * 1e6).round() / 1e6;
+        }
+        let read = RunRecord::<serde_json::Value>::from_json(&run.to_json().unwrap()).unwrap();
+        let from_run = HtmlReport { run: &run, map_png: b"", animation_gif: None, theme: Theme::Clear };
+        let from_file = HtmlReport { run: &read, map_png: b"", animation_gif: None, theme: Theme::Clear };
+        assert_eq!(from_run.to_html().unwrap(), from_file.to_html().unwrap());
+    }
+
+    #[test]
+    fn clocks() {
+        for (time_s, expected) in
+            [(0.0, "0.0 s"), (59.94, "59.9 s"), (59.96, "1 min 0 s"), (312.4, "5 min 12 s"), (3661.0, "1 h 1 min 1 s")]
+        {
+            assert_eq!(clock(time_s), expected);
+        }
+    }
+}
