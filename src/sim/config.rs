@@ -2,21 +2,15 @@
 
 use super::OdometryNoise;
 use crate::grid::{ThresholdError, Thresholds};
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
 /// A number of a simulation that cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SimConfigError {
     /// A value out of its range.
-    #[error("{key} is {value}: must be {allowed}")]
-    OutOfRange {
-        /// Which key.
-        key: &'static str,
-        /// As given.
-        value: f64,
-        /// The range in words.
-        allowed: &'static str,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// Thresholds out of order.
     #[error(transparent)]
     Thresholds(#[from] ThresholdError),
@@ -80,14 +74,14 @@ impl MapperConfig {
     /// # Errors
     /// [`SimConfigError`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), SimConfigError> {
-        positive("mapper.resolution_m", self.resolution_m)?;
-        positive("mapper.hit_log_odds", f64::from(self.hit_log_odds))?;
-        positive("mapper.max_log_odds", f64::from(self.max_log_odds))?;
+        OutOfRange::unless_positive("mapper.resolution_m", self.resolution_m)?;
+        OutOfRange::unless_positive("mapper.hit_log_odds", f64::from(self.hit_log_odds))?;
+        OutOfRange::unless_positive("mapper.max_log_odds", f64::from(self.max_log_odds))?;
         negative("mapper.pass_log_odds", f64::from(self.pass_log_odds))?;
         negative("mapper.min_log_odds", f64::from(self.min_log_odds))?;
-        positive("mapper.initial_reach_m", self.initial_reach_m)?;
-        positive("mapper.growth_m", self.growth_m)?;
-        period("mapper.publish_period_s", self.publish_period_s)
+        OutOfRange::unless_positive("mapper.initial_reach_m", self.initial_reach_m)?;
+        OutOfRange::unless_positive("mapper.growth_m", self.growth_m)?;
+        Ok(period("mapper.publish_period_s", self.publish_period_s)?)
     }
 }
 
@@ -133,36 +127,24 @@ impl SimConfig {
     pub fn validate(&self) -> Result<(), SimConfigError> {
         period("control_period_s", self.control_period_s)?;
         period("tick_period_s", self.tick_period_s)?;
-        not_negative("lidar_noise_std_m", self.lidar_noise_std_m.unwrap_or(0.0))?;
+        OutOfRange::unless_not_negative("lidar_noise_std_m", self.lidar_noise_std_m.unwrap_or(0.0))?;
         let OdometryNoise { turn_by_turn, turn_by_drive, drive_by_drive, drive_by_turn } = self.odometry_noise;
-        not_negative("odometry_noise.turn_by_turn", turn_by_turn)?;
-        not_negative("odometry_noise.turn_by_drive", turn_by_drive)?;
-        not_negative("odometry_noise.drive_by_drive", drive_by_drive)?;
-        not_negative("odometry_noise.drive_by_turn", drive_by_turn)?;
+        OutOfRange::unless_not_negative("odometry_noise.turn_by_turn", turn_by_turn)?;
+        OutOfRange::unless_not_negative("odometry_noise.turn_by_drive", turn_by_drive)?;
+        OutOfRange::unless_not_negative("odometry_noise.drive_by_drive", drive_by_drive)?;
+        OutOfRange::unless_not_negative("odometry_noise.drive_by_turn", drive_by_turn)?;
         self.mapper.validate()?;
         Ok(self.thresholds.validate()?)
     }
 }
 
 /// Simulated time is counted in whole microseconds.
-fn period(key: &'static str, value: f64) -> Result<(), SimConfigError> {
-    check(key, value, (1e-3..=3600.0).contains(&value), "between 0.001 and 3600")
+fn period(key: &'static str, value: f64) -> Result<(), OutOfRange> {
+    OutOfRange::unless((1e-3..=3600.0).contains(&value), key, value, "between 0.001 and 3600")
 }
 
-fn positive(key: &'static str, value: f64) -> Result<(), SimConfigError> {
-    check(key, value, value.is_finite() && value > 0.0, "finite and > 0")
-}
-
-fn negative(key: &'static str, value: f64) -> Result<(), SimConfigError> {
-    check(key, value, value.is_finite() && value < 0.0, "finite and < 0")
-}
-
-fn not_negative(key: &'static str, value: f64) -> Result<(), SimConfigError> {
-    check(key, value, value.is_finite() && value >= 0.0, "finite and >= 0")
-}
-
-fn check(key: &'static str, value: f64, holds: bool, allowed: &'static str) -> Result<(), SimConfigError> {
-    if holds { Ok(()) } else { Err(SimConfigError::OutOfRange { key, value, allowed }) }
+fn negative(key: &'static str, value: f64) -> Result<(), OutOfRange> {
+    OutOfRange::unless(value.is_finite() && value < 0.0, key, value, "finite and < 0")
 }
 
 #[cfg(test)]

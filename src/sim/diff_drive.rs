@@ -3,7 +3,7 @@
 //! It follows velocity commands under its acceleration limits, moves along exact
 //! arcs in short substeps, and stops where it would touch something solid.
 
-use super::{Body, Odometry, World};
+use super::{CollisionShape, Odometry, World};
 use crate::geometry::{Footprint, MotionLimits, Pose, Twist, shortest_angle};
 
 /// The longest substep, seconds.
@@ -18,7 +18,7 @@ const CONTACT_RELEASE_RAD: f64 = 0.5;
 #[derive(Clone, Debug)]
 pub struct DiffDrive {
     limits: MotionLimits,
-    body: Body,
+    body: CollisionShape,
     pose: Pose,
     twist: Twist,
     odometry: Odometry,
@@ -35,7 +35,7 @@ impl DiffDrive {
     pub fn new(world: &World, footprint: &Footprint, limits: MotionLimits, start: Pose, odometry: Odometry) -> Self {
         Self {
             limits,
-            body: Body::new(footprint, world.info().resolution_m()),
+            body: CollisionShape::new(footprint, world.info().resolution_m()),
             pose: start,
             twist: Twist::ZERO,
             odometry,

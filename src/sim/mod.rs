@@ -2,7 +2,7 @@
 //! them (rim). It reads no clock and no file, and draws every random number from a
 //! seed: the same configuration gives the same run, byte for byte.
 
-mod body;
+mod collision;
 mod config;
 mod coverage;
 mod diff_drive;
@@ -11,13 +11,16 @@ mod map_window;
 mod mapper;
 mod odometry;
 mod ray;
+mod robot;
+mod schedule;
 mod world;
 
-pub use body::Body;
+pub use collision::CollisionShape;
 pub use config::{MapStyle, MapperConfig, SimConfig, SimConfigError};
 pub use coverage::{Coverage, SENSED_MARGIN_M, TargetArea};
 pub use diff_drive::DiffDrive;
 pub use lidar::Lidar;
 pub use mapper::{Mapper, MapperError};
 pub use odometry::{Odometry, OdometryNoise};
+pub use robot::{SimError, SimRobot, SimStats};
 pub use world::{World, WorldError};

@@ -160,7 +160,7 @@ impl World {
         if clearance_m <= inscribed_m {
             return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: inscribed_m });
         }
-        if !super::Body::new(footprint, self.info.resolution_m()).fits(self, start) {
+        if !super::CollisionShape::new(footprint, self.info.resolution_m()).fits(self, start) {
             return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: footprint.circumscribed_radius_m() });
         }
         Ok(())

@@ -9,14 +9,14 @@ use crate::geometry::{Footprint, Point, Pose};
 
 /// A footprint prepared for many checks.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct CollisionShape {
     inscribed_m: f64,
     circumscribed_m: f64,
     /// Points on the outline in the base frame; none for a disc.
     outline_in_base: Vec<Point>,
 }
 
-impl Body {
+impl CollisionShape {
     /// Prepares a footprint for worlds with cells of `resolution_m`.
     #[must_use]
     pub fn new(footprint: &Footprint, resolution_m: f64) -> Self {
@@ -67,7 +67,7 @@ mod tests {
     #[test]
     fn a_disc_fits_where_the_costmap_says_so() {
         let w = world("#......");
-        let body = Body::new(&Footprint::RadiusM(0.9), 1.0);
+        let body = CollisionShape::new(&Footprint::RadiusM(0.9), 1.0);
         let fits: Vec<bool> = (0..7).map(|x| body.fits(&w, &Pose::new(f64::from(x) + 0.5, 0.5, 0.0))).collect();
         // One row: the rim is one cell away everywhere.
         assert_eq!(fits, [false, true, true, true, true, true, true]);
@@ -77,7 +77,7 @@ mod tests {
     fn a_rectangle_fits_lengthwise_only() {
         let w = world(".......\n.......\n.......");
         let long = Footprint::PolygonM(vec![[-2.5, -0.4], [2.5, -0.4], [2.5, 0.4], [-2.5, 0.4]]);
-        let body = Body::new(&long, 1.0);
+        let body = CollisionShape::new(&long, 1.0);
         assert!(body.fits(&w, &Pose::new(3.5, 1.5, 0.0)));
         assert!(!body.fits(&w, &Pose::new(3.5, 1.5, 1.2)));
         assert!(!body.fits(&w, &Pose::new(5.5, 1.5, 0.0)));
