@@ -1,1 +1,26 @@
-//! sim.
+//! The built-in simulator: a world, a lidar, a body, a mapper, and a robot made of
+//! them (rim). It reads no clock and no file, and draws every random number from a
+//! seed: the same configuration gives the same run, byte for byte.
+
+mod collision;
+mod config;
+mod coverage;
+mod diff_drive;
+mod lidar;
+mod map_window;
+mod mapper;
+mod odometry;
+mod ray;
+mod robot;
+mod schedule;
+mod world;
+
+pub use collision::CollisionShape;
+pub use config::{MapStyle, MapperConfig, SimConfig, SimConfigError};
+pub use coverage::{Coverage, SENSED_MARGIN_M, TargetArea};
+pub use diff_drive::DiffDrive;
+pub use lidar::Lidar;
+pub use mapper::{Mapper, MapperError};
+pub use odometry::{Odometry, OdometryNoise};
+pub use robot::{SimError, SimRobot, SimStats};
+pub use world::{World, WorldError};

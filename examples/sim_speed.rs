@@ -1,0 +1,105 @@
+//! How long the simulator's parts take in the office: `cargo run --release --example
+//! sim_speed`. Prints milliseconds for each part and how much faster than the robot's
+//! own time a drive through the office is.
+
+#![allow(clippy::print_stdout, reason = "an example prints its figures")]
+
+use anyhow::{Context, Result};
+use frontier_explorer::config::builtin_robot;
+use frontier_explorer::control::{Body, FollowerConfig, PathFollower};
+use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::grid::{Costmap, Thresholds};
+use frontier_explorer::io::load_map;
+use frontier_explorer::navigation::{Navigator, NavigatorConfig};
+use frontier_explorer::planning::Astar;
+use frontier_explorer::robot::{Command, NavigationState, Robot};
+use frontier_explorer::sim::{Coverage, Lidar, MapStyle, Mapper, MapperConfig, SimConfig, SimRobot, TargetArea, World};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+fn main() -> Result<()> {
+    let truth = load_map(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/office.yaml")))?.grid;
+    let robot = builtin_robot("turtlebot2")?;
+    let started = Instant::now();
+    let world = Arc::new(World::new(&truth, &Thresholds::default())?);
+    println!("world       {:8.3} ms once", ms(started, 1));
+
+    let start = Pose::new(1.5, 7.9, 0.0);
+    let started = Instant::now();
+    let target = TargetArea::new(&world, &robot.footprint, &start)?;
+    println!("target      {:8.3} ms once, {:.1} m2", ms(started, 1), target.area_m2());
+
+    // Places all over the office.
+    let places: Vec<Pose> = target
+        .cells()
+        .iter()
+        .step_by(41)
+        .enumerate()
+        .map(|(i, &cell)| (truth.info().center(truth.info().cell(cell as usize)), i as f64))
+        .map(|(at, yaw)| Pose::new(at.x, at.y, yaw))
+        .collect();
+    let mut lidar = Lidar::new(robot.lidar, 0);
+    let started = Instant::now();
+    let scans: Vec<_> = places.iter().map(|pose| lidar.sweep(&world, pose, 0.0)).collect();
+    println!("sweep       {:8.3} ms for {} rays", ms(started, scans.len()), robot.lidar.rays);
+
+    let config = MapperConfig::default();
+    let mut mapper = Mapper::new(config, start.position(), world.info().origin_in_map().position())?;
+    let started = Instant::now();
+    for (pose, scan) in places.iter().zip(&scans) {
+        mapper.integrate(pose, scan)?;
+    }
+    println!("integrate   {:8.3} ms", ms(started, scans.len()));
+
+    let greys = MapperConfig { style: MapStyle::Cartographer, ..config };
+    let mut grey = Mapper::new(greys, start.position(), Point::origin())?;
+    for (pose, scan) in places.iter().zip(&scans) {
+        grey.integrate(pose, scan)?;
+    }
+    for (name, mapper) in [("gmapping", &mapper), ("cartographer", &grey)] {
+        let started = Instant::now();
+        for _ in 0..100 {
+            std::hint::black_box(mapper.publish()?);
+        }
+        println!("publish     {:8.3} ms as {name}", ms(started, 100));
+    }
+    let map = mapper.publish()?;
+    let started = Instant::now();
+    for _ in 0..20 {
+        std::hint::black_box(Costmap::inflate(&map, &Thresholds::default(), &robot.inflation()));
+    }
+    println!("inflate     {:8.3} ms for {} x {} cells", ms(started, 20), map.info().width(), map.info().height());
+    let mut coverage = Coverage::new(&target);
+    let started = Instant::now();
+    coverage.update(&map);
+    println!("coverage    {:8.3} ms from nothing to {:.4}", ms(started, 1), coverage.share());
+    drive(&world, &start)
+}
+
+/// Through the office on known ground, room by room.
+fn drive(world: &Arc<World>, start: &Pose) -> Result<()> {
+    let robot = builtin_robot("turtlebot2")?;
+    let body = Body { footprint: robot.footprint.clone(), limits: robot.limits };
+    let follower = Box::new(PathFollower::new(FollowerConfig::default(), body));
+    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower);
+    let mut sim = SimRobot::new(Arc::clone(world), &robot, SimConfig::default(), navigator, *start)?;
+    let started = Instant::now();
+    let mut id = 0;
+    for _ in 0..3000 {
+        let observation = sim.observe()?;
+        if observation.navigation.state != NavigationState::Active {
+            id += 1;
+            let x = if id % 2 == 1 { start.x + 4.0 } else { start.x };
+            sim.command(&Command::Drive { id, goal_in_map: Pose::new(x, start.y, 0.0) })?;
+        }
+    }
+    let stats = sim.stats();
+    let factor = stats.sim_time_s / started.elapsed().as_secs_f64();
+    println!("drive       {factor:8.0} x real time over {:.0} s, {:.0} m", stats.sim_time_s, stats.distance_m);
+    (stats.collisions == 0).then_some(()).context("the robot touched something")
+}
+
+fn ms(started: Instant, count: usize) -> f64 {
+    started.elapsed().as_secs_f64() * 1e3 / count as f64
+}

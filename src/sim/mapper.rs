@@ -1,0 +1,240 @@
+//! Mapping with known poses on a grid that grows as gmapping's does.
+//!
+//! *Probabilistic Robotics* (Thrun, Burgard, Fox 2005), chapter 9: a cell holds the
+//! log odds of being occupied; a ray adds to the cell it ends in and takes from the
+//! cells it passes. Each scan counts once for a cell, and a hit wins over a pass.
+//! O(cells passed) a scan.
+//!
+//! A range measures the way to the near side of an obstacle, which in a world of
+//! cells is a border between two. Within the precision of a range (`f32`), a ray that
+//! ends on a border hits the cell beyond; one that ends so near to a corner that it
+//! cannot be told which cell is beyond marks none. Noise-free scans therefore never
+//! mark a cell wrongly where the map's lattice is the world's.
+
+use super::map_window::MapWindow;
+use super::ray::Ray;
+use super::{MapStyle, MapperConfig, SimConfigError};
+use crate::geometry::{Point, Pose};
+use crate::grid::{GridInfoError, OccupancyGrid};
+use crate::scan::{LaserScan, Reading};
+
+/// Why a scan cannot be put into the map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MapperError {
+    /// A parameter out of its range.
+    #[error(transparent)]
+    Config(#[from] SimConfigError),
+    /// The map would become too large.
+    #[error("the map cannot grow: {0}")]
+    TooLarge(#[from] GridInfoError),
+    /// The scan was taken nowhere.
+    #[error("the lidar's pose ({x}, {y}, {yaw}): must be finite metres and radians")]
+    PoseNotFinite {
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// Radians.
+        yaw: f64,
+    },
+}
+
+/// What the map knows of a cell.
+#[derive(Clone, Copy, Debug)]
+struct MapCell {
+    log_odds: f32,
+    /// Mark of the newest scan that touched it; 0 of a cell never seen.
+    mark: u32,
+}
+
+const UNSEEN: MapCell = MapCell { log_odds: 0.0, mark: 0 };
+
+/// A ray on the lattice and where it ends, in cells.
+struct Beam {
+    ray: Ray,
+    length: f64,
+    hit: bool,
+}
+
+/// A growing occupancy grid in log odds.
+#[derive(Debug)]
+pub struct Mapper {
+    config: MapperConfig,
+    window: MapWindow,
+    cells: Vec<MapCell>,
+    known_cells: usize,
+    /// Even; a scan marks what it passes with this and what it hits with this + 1.
+    mark: u32,
+    /// Indices passed and hit by the scan at work, kept for their memory.
+    passed: Vec<usize>,
+    hits: Vec<usize>,
+}
+
+impl Mapper {
+    /// An empty map around a start, on the lattice with a cell corner at `anchor`
+    /// (the world's origin, for a map whose cells are the world's), axis-aligned in
+    /// the map frame.
+    ///
+    /// # Errors
+    /// [`MapperError`] for a parameter out of its range or a first map too large.
+    pub fn new(config: MapperConfig, start: Point, anchor: Point) -> Result<Self, MapperError> {
+        config.validate()?;
+        let window = MapWindow::around(start, config.initial_reach_m, anchor, config.resolution_m)?;
+        let cells = vec![UNSEEN; window.len()];
+        Ok(Self { config, window, cells, known_cells: 0, mark: 0, passed: Vec::new(), hits: Vec::new() })
+    }
+
+    /// Takes a scan into the map, taken with the lidar at `lidar_pose`.
+    ///
+    /// # Errors
+    /// [`MapperError`] for a pose that is not finite or a map that would become too
+    /// large; the map is then as before.
+    pub fn integrate(&mut self, lidar_pose: &Pose, scan: &LaserScan) -> Result<(), MapperError> {
+        if !lidar_pose.is_finite() {
+            let Pose { x, y, yaw } = *lidar_pose;
+            return Err(MapperError::PoseNotFinite { x, y, yaw });
+        }
+        let beams = self.beams(lidar_pose, scan);
+        self.make_room(&beams)?;
+        self.mark += 2;
+        self.passed.clear();
+        self.hits.clear();
+        for beam in &beams {
+            self.trace(beam);
+        }
+        self.update();
+        Ok(())
+    }
+
+    /// Number of cells seen so far.
+    #[must_use]
+    pub const fn known_cells(&self) -> usize {
+        self.known_cells
+    }
+
+    /// Area of the cells seen so far, square metres.
+    #[must_use]
+    pub fn known_area_m2(&self) -> f64 {
+        self.known_cells as f64 * self.window.resolution_m() * self.window.resolution_m()
+    }
+
+    /// The map as it would be published now.
+    ///
+    /// # Errors
+    /// Never for a map that was made and grown without one.
+    pub fn publish(&self) -> Result<OccupancyGrid, MapperError> {
+        let value: fn(f32) -> i8 = match self.config.style {
+            MapStyle::Gmapping => |log_odds| if log_odds > 0.0 { OccupancyGrid::OCCUPIED } else { OccupancyGrid::FREE },
+            MapStyle::Cartographer => |log_odds| (100.0 / (1.0 + (-log_odds).exp())).round() as i8,
+        };
+        let mut grid = OccupancyGrid::filled(self.window.info()?, OccupancyGrid::UNKNOWN);
+        for (slot, cell) in grid.data_mut().iter_mut().zip(&self.cells) {
+            if cell.mark != 0 {
+                *slot = value(cell.log_odds);
+            }
+        }
+        Ok(grid)
+    }
+
+    fn beams(&self, lidar_pose: &Pose, scan: &LaserScan) -> Vec<Beam> {
+        let start = self.window.to_lattice(lidar_pose.position());
+        let resolution_m = self.window.resolution_m();
+        let beam = |(angle_rad, reading): (f64, Reading)| {
+            let (range_m, hit) = match reading {
+                Reading::Hit(range_m) => (range_m, true),
+                Reading::Clear(range_m) => (range_m, false),
+                Reading::None => return None,
+            };
+            let (sin, cos) = (lidar_pose.yaw + angle_rad).sin_cos();
+            Some(Beam { ray: Ray::new(start, (cos, sin)), length: range_m / resolution_m, hit })
+        };
+        scan.readings().filter_map(beam).collect()
+    }
+
+    /// Grows the window so that every beam ends inside it.
+    fn make_room(&mut self, beams: &[Beam]) -> Result<(), MapperError> {
+        let Some(first) = beams.first() else { return Ok(()) };
+        let (mut low, mut high) = (first.ray.point(0.0), first.ray.point(0.0));
+        for beam in beams {
+            let (x, y) = beam.ray.point(beam.length);
+            low = (low.0.min(x), low.1.min(y));
+            high = (high.0.max(x), high.1.max(y));
+        }
+        // The cell that is hit may be the one beyond the end.
+        let cell = |(x, y): (f64, f64), by: f64| ((x + by).floor() as i64, (y + by).floor() as i64);
+        let chunk = (self.config.growth_m / self.config.resolution_m).ceil() as i64;
+        let grown = self.window.grown_to(cell(low, -1.0), cell(high, 1.0), chunk)?;
+        if grown != self.window {
+            self.cells = self.window.copy_into(&self.cells, &grown, UNSEEN);
+            self.window = grown;
+        }
+        Ok(())
+    }
+
+    /// Notes the cells that a beam passes and the one it hits.
+    fn trace(&mut self, beam: &Beam) {
+        let Beam { ray, length, hit } = beam;
+        let (x, y, mut walk) = ray.at(0.0);
+        let Some(mut index) = self.window.index(x, y) else { return };
+        let (step_x, step_y) = ray.steps();
+        let row = step_y * self.window.width() as isize;
+        let go_on = |walk: &mut _, index: &mut usize| {
+            *index = index.wrapping_add_signed(if ray.advance(walk) { step_x } else { row });
+        };
+        let slack = length * RANGE_PRECISION + ROUNDING;
+        let mark = self.mark;
+        let mut pass = |index: usize| {
+            if let Some(cell) = self.cells.get_mut(index)
+                && cell.mark != mark
+            {
+                self.known_cells += usize::from(cell.mark == 0);
+                cell.mark = mark;
+                self.passed.push(index);
+            }
+        };
+        while walk.left() < length - slack {
+            pass(index);
+            go_on(&mut walk, &mut index);
+        }
+        if !hit {
+            pass(index);
+            return;
+        }
+        if walk.left() <= length + slack {
+            pass(index);
+            go_on(&mut walk, &mut index);
+        }
+        if walk.left() > length + slack {
+            self.hits.push(index);
+        }
+    }
+
+    /// Adds the evidence of the noted cells, a hit before a pass.
+    fn update(&mut self) {
+        let MapperConfig { hit_log_odds, pass_log_odds, min_log_odds, max_log_odds, .. } = self.config;
+        for &index in &self.hits {
+            if let Some(cell) = self.cells.get_mut(index)
+                && cell.mark != self.mark + 1
+            {
+                self.known_cells += usize::from(cell.mark == 0);
+                cell.mark = self.mark + 1;
+                cell.log_odds = (cell.log_odds + hit_log_odds).min(max_log_odds);
+            }
+        }
+        for &index in &self.passed {
+            if let Some(cell) = self.cells.get_mut(index)
+                && cell.mark == self.mark
+            {
+                cell.log_odds = (cell.log_odds + pass_log_odds).max(min_log_odds);
+            }
+        }
+    }
+}
+
+/// Relative error of a range that was rounded to `f32`, with room to spare.
+const RANGE_PRECISION: f64 = 2.0 * f32::EPSILON as f64;
+/// Error of a crossing computed in `f64`, cells.
+const ROUNDING: f64 = 1e-9;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,277 @@
+//! A robot made of the simulator's parts, behind the port that the explorer knows.
+//!
+//! The pose in the map is the true one, as of a SLAM that never errs; what a map
+//! shows is what the lidar has seen of the world, published once in a while. The map
+//! frame is the world's.
+
+use super::schedule::{Micros, Periodic, seconds};
+use super::{
+    Coverage, DiffDrive, Lidar, Mapper, MapperError, Odometry, SimConfig, SimConfigError, TargetArea, World, WorldError,
+};
+use crate::config::RobotConfig;
+use crate::geometry::{Pose, Twist};
+use crate::grid::{Costmap, Inflation, OccupancyGrid};
+use crate::navigation::{NavigationInput, Navigator};
+use crate::planning::Path;
+use crate::robot::{Command, MapSnapshot, Navigation, NavigationState, Observation, Robot, RobotError};
+use crate::scan::LaserScan;
+use serde::Serialize;
+use std::sync::Arc;
+
+/// Why a simulation cannot begin.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SimError {
+    /// A setting that cannot be.
+    #[error(transparent)]
+    Config(#[from] SimConfigError),
+    /// The robot cannot start where it shall.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// The map cannot be made.
+    #[error(transparent)]
+    Mapper(#[from] MapperError),
+}
+
+/// What a run has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SimStats {
+    /// Simulated time, seconds.
+    pub sim_time_s: f64,
+    /// Length of the true path, metres.
+    pub distance_m: f64,
+    /// All turning either way, radians.
+    pub turned_rad: f64,
+    /// Contacts with solid cells.
+    pub collisions: usize,
+    /// Share of the target area known in the newest map, 0 to 1.
+    pub coverage: f64,
+    /// Area of all cells that the mapper has seen, square metres.
+    pub known_area_m2: f64,
+    /// The target area, square metres.
+    pub target_area_m2: f64,
+}
+
+/// A published map with the costmap made of it.
+#[derive(Debug)]
+struct Published {
+    stamp_s: f64,
+    grid: Arc<OccupancyGrid>,
+    costmap: Arc<Costmap>,
+}
+
+/// The simulated robot.
+pub struct SimRobot {
+    config: SimConfig,
+    inflation: Inflation,
+    world: Arc<World>,
+    body: DiffDrive,
+    lidar: Lidar,
+    mapper: Mapper,
+    navigator: Navigator,
+    target: TargetArea,
+    coverage: Coverage,
+    now: Micros,
+    tick: Periodic,
+    control: Periodic,
+    sweep: Periodic,
+    publish: Periodic,
+    scan: (Pose, Arc<LaserScan>),
+    published: Published,
+    twist_command: Twist,
+    navigation: Navigation,
+}
+
+impl SimRobot {
+    /// A robot at rest at a pose of the world, with its first scan taken and its
+    /// first map published. `robot` is a validated configuration, and `navigator`
+    /// was made for `config.control_period_s`.
+    ///
+    /// # Errors
+    /// [`SimError`] for a setting out of its range or a start where the robot does
+    /// not fit.
+    pub fn new(
+        world: Arc<World>,
+        robot: &RobotConfig,
+        config: SimConfig,
+        navigator: Navigator,
+        start: Pose,
+    ) -> Result<Self, SimError> {
+        config.validate()?;
+        let target = TargetArea::new(&world, &robot.footprint, &start)?;
+        let odometry = Odometry::new(config.odometry_noise, config.seed);
+        let body = DiffDrive::new(&world, &robot.footprint, robot.limits, start, odometry);
+        let mut lidar_config = robot.lidar;
+        lidar_config.noise_std_m = config.lidar_noise_std_m.unwrap_or(lidar_config.noise_std_m);
+        let mut lidar = Lidar::new(lidar_config, config.seed);
+        let mut mapper = Mapper::new(config.mapper, start.position(), world.info().origin_in_map().position())?;
+        let inflation = robot.inflation();
+        let scan = look(&world, &mut lidar, &mut mapper, &start, 0.0)?;
+        let published = publish(&mapper, &config, &inflation, 0.0)?;
+        let mut coverage = Coverage::new(&target);
+        coverage.update(&published.grid);
+        let mut this = Self {
+            config,
+            inflation,
+            world,
+            body,
+            lidar,
+            mapper,
+            navigator,
+            target,
+            coverage,
+            now: 0,
+            tick: Periodic::every_s(config.tick_period_s),
+            control: Periodic::every_s(config.control_period_s),
+            sweep: Periodic::every_s(1.0 / lidar_config.rate_hz),
+            publish: Periodic::every_s(config.mapper.publish_period_s),
+            scan,
+            published,
+            twist_command: Twist::ZERO,
+            navigation: Navigation { command: 0, state: NavigationState::Idle },
+        };
+        // What falls on time 0 has just been done.
+        this.sweep.is_due(0);
+        this.publish.is_due(0);
+        Ok(this)
+    }
+
+    /// What the run has come to so far.
+    #[must_use]
+    pub fn stats(&self) -> SimStats {
+        SimStats {
+            sim_time_s: seconds(self.now),
+            distance_m: self.body.distance_m(),
+            turned_rad: self.body.turned_rad(),
+            collisions: self.body.collisions(),
+            coverage: self.coverage.share(),
+            known_area_m2: self.mapper.known_area_m2(),
+            target_area_m2: self.target.area_m2(),
+        }
+    }
+
+    /// The true pose in the world, whose frame is the map's.
+    #[must_use]
+    pub const fn pose(&self) -> Pose {
+        self.body.pose()
+    }
+
+    /// Where the wheels believe the robot is, from its start at the origin.
+    #[must_use]
+    pub const fn pose_in_odom(&self) -> Pose {
+        self.body.pose_in_odom()
+    }
+
+    /// The newest published map.
+    #[must_use]
+    pub const fn map(&self) -> &Arc<OccupancyGrid> {
+        &self.published.grid
+    }
+
+    /// The path being followed, if any.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        self.navigator.path()
+    }
+
+    /// The world it lives in.
+    #[must_use]
+    pub const fn world(&self) -> &Arc<World> {
+        &self.world
+    }
+
+    /// The area that coverage is a share of.
+    #[must_use]
+    pub const fn target(&self) -> &TargetArea {
+        &self.target
+    }
+
+    /// Lets simulated time pass; what falls together happens in the order scan, map,
+    /// command, so that each has the newest of the one before.
+    fn advance_to(&mut self, end: Micros) -> Result<(), MapperError> {
+        loop {
+            self.happen()?;
+            if self.now >= end {
+                return Ok(());
+            }
+            if self.control.is_due(self.now) {
+                self.steer();
+            }
+            let next = end.min(self.control.next()).min(self.sweep.next()).min(self.publish.next());
+            self.body.drive(&self.world, &self.twist_command, seconds(next - self.now));
+            self.now = next;
+        }
+    }
+
+    /// The scan and the map that are due now.
+    fn happen(&mut self) -> Result<(), MapperError> {
+        let stamp_s = seconds(self.now);
+        if self.sweep.is_due(self.now) {
+            self.scan = look(&self.world, &mut self.lidar, &mut self.mapper, &self.body.pose(), stamp_s)?;
+        }
+        if self.publish.is_due(self.now) {
+            self.published = publish(&self.mapper, &self.config, &self.inflation, stamp_s)?;
+            self.coverage.update(&self.published.grid);
+        }
+        Ok(())
+    }
+
+    fn steer(&mut self) {
+        let input = NavigationInput {
+            stamp_s: seconds(self.now),
+            pose_in_map: self.body.pose(),
+            twist: self.body.twist(),
+            costmap: &self.published.costmap,
+            costmap_stamp_s: self.published.stamp_s,
+            scan: Some((&self.scan.0, &self.scan.1)),
+        };
+        (self.twist_command, self.navigation) = self.navigator.update(&input);
+    }
+}
+
+impl Robot for SimRobot {
+    /// Lets simulated time pass until the next tick; the first is at time 0.
+    fn observe(&mut self) -> Result<Observation, RobotError> {
+        let tick = self.tick.next();
+        self.advance_to(tick).map_err(|error| RobotError::Disconnected(format!("the mapper stopped: {error}")))?;
+        self.tick.is_due(tick);
+        Ok(Observation {
+            stamp_s: seconds(self.now),
+            pose_in_map: Ok(self.body.pose()),
+            map: Some(MapSnapshot {
+                stamp_s: self.published.stamp_s,
+                grid: Arc::clone(&self.published.grid),
+                costmap: Some(Arc::clone(&self.published.costmap)),
+            }),
+            scan: Some((self.scan.0, Arc::clone(&self.scan.1))),
+            navigation: self.navigation.clone(),
+        })
+    }
+
+    fn command(&mut self, command: &Command) -> Result<(), RobotError> {
+        self.navigator.command(command);
+        Ok(())
+    }
+}
+
+/// Takes a scan into the map; returns it with the lidar's pose.
+fn look(
+    world: &World,
+    lidar: &mut Lidar,
+    mapper: &mut Mapper,
+    base: &Pose,
+    stamp_s: f64,
+) -> Result<(Pose, Arc<LaserScan>), MapperError> {
+    let pose = lidar.pose(base);
+    let scan = lidar.sweep(world, &pose, stamp_s);
+    mapper.integrate(&pose, &scan)?;
+    Ok((pose, Arc::new(scan)))
+}
+
+fn publish(mapper: &Mapper, config: &SimConfig, inflation: &Inflation, stamp_s: f64) -> Result<Published, MapperError> {
+    let grid = mapper.publish()?;
+    let costmap = Costmap::inflate(&grid, &config.thresholds, inflation);
+    Ok(Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) })
+}
+
+#[cfg(test)]
+mod tests;

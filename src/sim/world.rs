@@ -1,0 +1,308 @@
+//! The ground truth that the simulated robot lives in.
+//!
+//! Stage's view of a map: every cell that is not free is a solid block, unknown cells
+//! and everything outside the map too. Two fields are prepared once: the distance to
+//! the nearest solid cell (Felzenszwalb and Huttenlocher 2012, exact), which answers
+//! collision checks, and how far a ray may leap from a cell without meeting anything,
+//! which makes ray casting fast and leaves it exact.
+
+use super::ray::Ray;
+use crate::geometry::{Footprint, Point, Pose};
+use crate::grid::{Cell, CellState, GridInfo, GridInfoError, OccupancyGrid, Thresholds, squared_distance_cells};
+
+/// Why a map cannot be lived in, or not from this start.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WorldError {
+    /// No cell is free.
+    #[error("the world of {width} x {height} cells has no free cell: must have at least one")]
+    NoFreeCell {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// The map with a solid rim around it is too large.
+    #[error(transparent)]
+    Info(#[from] GridInfoError),
+    /// A start that is no finite pose.
+    #[error("the start ({x}, {y}, {yaw}): must be finite metres and radians")]
+    StartNotFinite {
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// Radians.
+        yaw: f64,
+    },
+    /// The start lies beyond the map.
+    #[error("the start ({x:.2}, {y:.2}) m lies outside the world")]
+    StartOutside {
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+    },
+    /// The robot does not fit where it shall start.
+    #[error(
+        "the start ({x:.2}, {y:.2}) m has {clearance_m:.3} m to the nearest solid cell: the robot needs more than {needed_m:.3} m"
+    )]
+    StartBlocked {
+        /// Metres.
+        x: f64,
+        /// Metres.
+        y: f64,
+        /// Metres from the start's cell to the nearest solid one, centre to centre.
+        clearance_m: f64,
+        /// Metres that suffice: the inscribed radius of the footprint, or its
+        /// circumscribed one where the heading at the start is what does not fit.
+        needed_m: f64,
+    },
+}
+
+/// Half a cell's diagonal for the ray's start, half for the solid cell, and a little
+/// for rounding, in cells.
+const LEAP_SLACK: f64 = 1.5;
+
+/// A world of solid and free cells.
+#[derive(Clone, Debug)]
+pub struct World {
+    info: GridInfo,
+    /// Columns of the fields below, which have a solid rim one cell wide around.
+    stride: usize,
+    /// Squared distance to the nearest solid cell, in cells.
+    clearance: Vec<u32>,
+    /// 0 in solid cells, else 1 + the cells that a ray may leap from anywhere in it.
+    leap: Vec<u8>,
+    free_cells: usize,
+}
+
+impl World {
+    /// A world from a ground truth map.
+    ///
+    /// # Errors
+    /// [`WorldError`] for a map without a free cell or too large for a rim.
+    pub fn new(truth: &OccupancyGrid, thresholds: &Thresholds) -> Result<Self, WorldError> {
+        let info = *truth.info();
+        let (width, height) = (info.width(), info.height());
+        let rimmed = GridInfo::new(width as u32 + 2, height as u32 + 2, info.resolution_m(), info.origin_in_map())?;
+        let stride = rimmed.width();
+        let mut solid = vec![true; rimmed.len()];
+        for (index, &value) in truth.data().iter().enumerate() {
+            let inner = (index / width + 1) * stride + index % width + 1;
+            solid[inner] = thresholds.classify(value) != CellState::Free;
+        }
+        let free_cells = solid.iter().filter(|&&s| !s).count();
+        if free_cells == 0 {
+            return Err(WorldError::NoFreeCell { width, height });
+        }
+        let clearance = squared_distance_cells(&rimmed, |i| solid[i]);
+        let leap = clearance.iter().map(|&squared| leap_of(squared)).collect();
+        Ok(Self { info, stride, clearance, leap, free_cells })
+    }
+
+    /// Size, resolution and place.
+    #[must_use]
+    pub const fn info(&self) -> &GridInfo {
+        &self.info
+    }
+
+    /// Number of free cells.
+    #[must_use]
+    pub const fn free_cells(&self) -> usize {
+        self.free_cells
+    }
+
+    /// Whether a cell is solid; outside the world all are.
+    #[must_use]
+    pub fn is_solid(&self, cell: Cell) -> bool {
+        self.clearance_squared_cells(cell) == 0
+    }
+
+    /// Squared distance in cells from a cell to the nearest solid one, centre to
+    /// centre; 0 in solid cells and outside.
+    #[must_use]
+    pub fn clearance_squared_cells(&self, cell: Cell) -> u32 {
+        if !self.info.contains(cell) {
+            return 0;
+        }
+        let index = (cell.y as usize + 1) * self.stride + cell.x as usize + 1;
+        self.clearance.get(index).copied().unwrap_or(0)
+    }
+
+    /// Distance in metres from the cell that holds a point to the nearest solid
+    /// cell, centre to centre: what a costmap of the same map measures.
+    #[must_use]
+    pub fn clearance_m(&self, point: Point) -> f64 {
+        f64::from(self.clearance_squared_cells(self.info.cell_at(point))).sqrt() * self.info.resolution_m()
+    }
+
+    /// Whether a disc of this radius can stand with its centre in a cell: the rule of
+    /// [`crate::grid::Costmap::is_passable`] on the ground truth.
+    #[must_use]
+    pub fn disc_fits(&self, cell: Cell, radius_m: f64) -> bool {
+        f64::from(self.clearance_squared_cells(cell)).sqrt() * self.info.resolution_m() > radius_m
+    }
+
+    /// Checks that a robot can start at a pose.
+    ///
+    /// # Errors
+    /// [`WorldError`] that says how much room there is and how much is needed.
+    pub fn check_start(&self, start: &Pose, footprint: &Footprint) -> Result<(), WorldError> {
+        let Pose { x, y, yaw } = *start;
+        if !start.is_finite() {
+            return Err(WorldError::StartNotFinite { x, y, yaw });
+        }
+        if !self.info.contains(self.info.cell_at(start.position())) {
+            return Err(WorldError::StartOutside { x, y });
+        }
+        let clearance_m = self.clearance_m(start.position());
+        let inscribed_m = footprint.inscribed_radius_m();
+        if clearance_m <= inscribed_m {
+            return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: inscribed_m });
+        }
+        if !super::CollisionShape::new(footprint, self.info.resolution_m()).fits(self, start) {
+            return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: footprint.circumscribed_radius_m() });
+        }
+        Ok(())
+    }
+
+    /// Distance in metres along a heading at which a ray enters the first solid cell,
+    /// if that is at most `limit_m`; 0 from within one.
+    #[must_use]
+    pub fn cast(&self, from: Point, heading_rad: f64, limit_m: f64) -> Option<f64> {
+        let (sin, cos) = (heading_rad - self.info.origin_in_map().yaw).sin_cos();
+        let resolution_m = self.info.resolution_m();
+        let entered = self.cast_cells(self.info.to_grid_units(from), (cos, sin), limit_m / resolution_m)?;
+        let distance_m = entered * resolution_m;
+        (distance_m <= limit_m).then_some(distance_m)
+    }
+
+    /// The same in grid units: a start in cells, a unit vector, a limit in cells. The
+    /// limit is generous by a rounding error.
+    pub(super) fn cast_cells(&self, start: (f64, f64), direction: (f64, f64), limit: f64) -> Option<f64> {
+        let ray = Ray::new(start, direction);
+        let (step_x, step_y) = ray.steps();
+        let row = step_y * self.stride as isize;
+        let limit = limit * (1.0 + 1e-12);
+        let mut distance = 0.0;
+        loop {
+            let (x, y, mut walk) = ray.at(distance);
+            if x < -1 || y < -1 || x > self.info.width() as i64 || y > self.info.height() as i64 {
+                return Some(distance);
+            }
+            let mut index = (y + 1) as usize * self.stride + (x + 1) as usize;
+            loop {
+                match self.leap.get(index).copied().unwrap_or(0) {
+                    0 if walk.entered > limit => return None,
+                    0 => return Some(walk.entered),
+                    leap if leap >= LEAP_WORTHWHILE => {
+                        // A ray along a border may be put back by rounding: it must get on.
+                        distance = walk.entered.max(distance) + f64::from(leap - 1);
+                        break;
+                    }
+                    _ => index = index.wrapping_add_signed(if ray.advance(&mut walk) { step_x } else { row }),
+                }
+            }
+            if distance > limit {
+                return None;
+            }
+        }
+    }
+}
+
+/// Below this a step is cheaper than a leap.
+const LEAP_WORTHWHILE: u8 = 4;
+
+fn leap_of(clearance_squared: u32) -> u8 {
+    if clearance_squared == 0 {
+        return 0;
+    }
+    let open = (f64::from(clearance_squared).sqrt() - LEAP_SLACK).clamp(0.0, 254.0);
+    1 + open as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::traverse;
+    use proptest::prelude::*;
+
+    fn world(drawing: &str) -> World {
+        World::new(&OccupancyGrid::from_ascii(drawing).unwrap(), &Thresholds::default()).unwrap()
+    }
+
+    #[test]
+    fn unknown_and_outside_are_solid() {
+        let w = world("..?\n...");
+        assert!(w.is_solid(Cell::new(2, 1)) && w.is_solid(Cell::new(-1, 0)) && !w.is_solid(Cell::new(2, 0)));
+        assert_eq!(w.free_cells(), 5);
+        assert_eq!(w.clearance_squared_cells(Cell::new(1, 0)), 1);
+    }
+
+    #[test]
+    fn a_world_without_room_is_refused() {
+        let full = OccupancyGrid::from_ascii("##\n?#").unwrap();
+        let error = World::new(&full, &Thresholds::default()).unwrap_err();
+        assert_eq!(error, WorldError::NoFreeCell { width: 2, height: 2 });
+    }
+
+    #[test]
+    fn a_bad_start_says_what_it_has_and_needs() {
+        let w = world(".....\n.....\n.....\n.....\n.....");
+        let disc = Footprint::RadiusM(1.5);
+        assert_eq!(w.check_start(&Pose::new(2.5, 2.5, 0.0), &disc), Ok(()));
+        let error = w.check_start(&Pose::new(0.5, 2.5, 0.0), &disc).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the start (0.50, 2.50) m has 1.000 m to the nearest solid cell: the robot needs more than 1.500 m"
+        );
+        let outside = w.check_start(&Pose::new(-0.5, 2.5, 0.0), &disc);
+        assert_eq!(outside, Err(WorldError::StartOutside { x: -0.5, y: 2.5 }));
+        assert!(w.check_start(&Pose::new(f64::NAN, 2.5, 0.0), &disc).is_err());
+    }
+
+    #[test]
+    fn a_long_robot_must_fit_with_its_heading() {
+        let w = world(".......\n.......\n.......");
+        let long = Footprint::PolygonM(vec![[-2.5, -0.5], [2.5, -0.5], [2.5, 0.5], [-2.5, 0.5]]);
+        assert_eq!(w.check_start(&Pose::new(3.5, 1.5, 0.0), &long), Ok(()));
+        let across = w.check_start(&Pose::new(3.5, 1.5, 1.5), &long);
+        assert!(matches!(across, Err(WorldError::StartBlocked { needed_m, .. }) if needed_m > 2.5));
+    }
+
+    #[test]
+    fn a_ray_along_a_border_ends() {
+        let info = GridInfo::new(80, 60, 0.1, Pose::new(-3.13, 2.71, 0.0)).unwrap();
+        let w = World::new(&OccupancyGrid::filled(info, 0), &Thresholds::default()).unwrap();
+        for (x, y) in (0..=80).flat_map(|x| (0..=60).map(move |y| (x, y))) {
+            let from = info.from_grid_units(f64::from(x), f64::from(y));
+            for quarter in -4..=4 {
+                let heading = f64::from(quarter) * std::f64::consts::FRAC_PI_2;
+                assert!(w.cast(from, heading, 20.0).is_some());
+            }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn casting_equals_the_textbook_walk(
+            (width, height, solid) in (1usize..40, 1usize..40).prop_flat_map(|(w, h)| {
+                (Just(w), Just(h), proptest::collection::vec(proptest::bool::weighted(0.02), w * h))
+            }),
+            yaw in prop_oneof![Just(0.0), -3.0f64..3.0],
+            (u, v) in (0.0f64..1.0, 0.0f64..1.0),
+            heading in -4.0f64..4.0,
+        ) {
+            let info = GridInfo::new(width as u32, height as u32, 0.05, Pose::new(-0.7, 0.3, yaw)).unwrap();
+            let data = solid.iter().map(|&s| if s { 100 } else { 0 }).collect();
+            let Ok(w) = World::new(&OccupancyGrid::new(info, data).unwrap(), &Thresholds::default()) else {
+                return Ok(());
+            };
+            let from = info.from_grid_units(u * width as f64, v * height as f64);
+            let expected = traverse(&info, from, heading, 10.0).find(|&(cell, _)| w.is_solid(cell)).unwrap().1;
+            let cast = w.cast(from, heading, 10.0).unwrap();
+            prop_assert!((cast - expected * 0.05).abs() < 1e-9, "{} for {}", cast, expected * 0.05);
+            prop_assert_eq!(w.cast(from, heading, 0.5 * cast - 1e-9), None);
+        }
+    }
+}
