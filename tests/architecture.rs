@@ -29,12 +29,33 @@ const ROOMS: &[(&str, &[&str])] = &[
 
 const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid"];
 const FLOORS_0_TO_2: &[&str] = &[
-    "range", "geometry", "scan", "grid", "frontier", "selection", "planning", "control", "robot", "navigation",
-    "explore", "config",
+    "range",
+    "geometry",
+    "scan",
+    "grid",
+    "frontier",
+    "selection",
+    "planning",
+    "control",
+    "robot",
+    "navigation",
+    "explore",
+    "config",
 ];
 const FLOORS_0_TO_2_AND_IO: &[&str] = &[
-    "range", "geometry", "scan", "grid", "frontier", "selection", "planning", "control", "robot", "navigation",
-    "explore", "config", "io",
+    "range",
+    "geometry",
+    "scan",
+    "grid",
+    "frontier",
+    "selection",
+    "planning",
+    "control",
+    "robot",
+    "navigation",
+    "explore",
+    "config",
+    "io",
 ];
 
 /// Rooms of floors 0 to 2, in which no clock is read.

@@ -144,7 +144,7 @@ fn print(
         return Ok(Outcome::Done);
     }
     let mut table = Table::new();
-    table.load_preset(comfy_table::presets::NOTHING);
+    table.load_style(comfy_table::presets::NOTHING);
     table.set_header(["id", "goal x (m)", "goal y (m)", "cells", "size (m)", "distance (m)"]);
     for column in table.column_iter_mut() {
         column.set_cell_alignment(comfy_table::CellAlignment::Right);

@@ -48,12 +48,8 @@ impl RunFolder {
         };
         let map_png = picture.to_png()?;
         self.save("map.png", &map_png)?;
-        let animation = Animation {
-            thresholds: &settings.thresholds,
-            trajectory: &recorder.trajectory,
-            region: settings.region.as_ref(),
-            theme: Theme::Clear,
-        };
+        let animation =
+            Animation { thresholds: &settings.thresholds, trajectory: &recorder.trajectory, theme: Theme::Clear };
         let gif = animation.to_gif(recorder.frames.frames())?;
         self.save("exploration.gif", &gif)?;
         let html = HtmlReport { run: record, map_png: &map_png, animation_gif: Some(&gif), theme: Theme::Clear };

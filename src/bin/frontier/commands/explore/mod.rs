@@ -91,12 +91,9 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         None => inputs::default_world()?,
     };
     let config = sim_config(args, &preset);
-    let world = World::new(&truth, &config.thresholds).with_context(|| world_name.clone())?;
-    let start = match args.start {
-        Some(start) => start,
-        None => world.most_open_spot(),
-    };
-    let mut sim = SimRobot::new(world, &robot, start, navigator(&preset, &robot), config)
+    let world = Arc::new(World::new(&truth, &config.thresholds).with_context(|| world_name.clone())?);
+    let start = args.start.unwrap_or_else(|| world.most_open_spot());
+    let mut sim = SimRobot::new(world, &robot, config, navigator(&preset, &robot), start)
         .with_context(|| format!("world {world_name}"))?;
     let mut explorer = Explorer::new(preset.explorer.clone(), robot.inflation())?;
     // The folder is made before the run: nobody waits for a map that cannot be saved.
@@ -104,14 +101,19 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let progress = Progress::new(args.quiet, &world_name, &preset.preset);
     let mut recorder = Recorder::new(progress, stop_flag()?);
     let end = explore(&mut sim, &mut explorer, &mut recorder);
-    let record = recorder.record(&sim, &explorer, &end, recorder::Setup {
-        world: world_name,
-        preset: preset.preset.clone(),
-        robot: robot.name.clone(),
-        seed: args.seed,
-        start,
-        total_s: began.elapsed().as_secs_f64(),
-    });
+    let record = recorder.record(
+        &sim,
+        &explorer,
+        &end,
+        recorder::Setup {
+            world: world_name,
+            preset: preset.preset.clone(),
+            robot: robot.name.clone(),
+            seed: args.seed,
+            start,
+            total_s: began.elapsed().as_secs_f64(),
+        },
+    );
     folder.write(&record, &recorder, &sim, &preset.explorer)?;
     if !args.quiet {
         summarize(&record, &folder)?;

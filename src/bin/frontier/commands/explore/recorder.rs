@@ -4,9 +4,7 @@ use super::progress::Progress;
 use frontier_explorer::explore::{CandidateStatus, Decision, DecisionRecord, End, Explorer, Watcher};
 use frontier_explorer::geometry::{Point, Pose};
 use frontier_explorer::grid::Thresholds;
-use frontier_explorer::report::{
-    Frame, FrameLog, MedianMax, PictureGoal, RunRecord, SCHEMA_VERSION, Series, Wall,
-};
+use frontier_explorer::report::{Frame, FrameLog, MedianMax, PictureGoal, RunRecord, SCHEMA_VERSION, Series, Wall};
 use frontier_explorer::robot::Observation;
 use frontier_explorer::sim::SimRobot;
 use std::sync::Arc;
