@@ -1,6 +1,8 @@
 //! The invariants of ARCHITECTURE.md, checked on the source: which room may use which,
 //! and what may not appear where.
 
+#![allow(clippy::unwrap_used)]
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -4,9 +4,8 @@ mod path_follower;
 
 pub use path_follower::{FollowerConfig, PathFollower};
 
-use crate::geometry::{Footprint, MotionLimits, Pose, Twist};
+use crate::geometry::{Footprint, MotionLimits, Path, Pose, Twist};
 use crate::grid::Costmap;
-use crate::planning::Path;
 use crate::scan::LaserScan;
 
 /// What a controller may look at.

@@ -5,9 +5,8 @@
 //! that corners are not cut into obstacles.
 
 use super::{Body, ControlError, ControlInput, Controller};
-use crate::geometry::{Point, Pose, Twist, shortest_angle};
+use crate::geometry::{Path, Point, Pose, Twist, shortest_angle};
 use crate::grid::{Costmap, INSCRIBED_COST, LETHAL_COST, traverse};
-use crate::planning::Path;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the follower.

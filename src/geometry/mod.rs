@@ -5,11 +5,13 @@
 
 mod footprint;
 mod motion;
+mod path;
 mod polygon;
 mod pose;
 
 pub use footprint::{Footprint, FootprintError};
 pub use motion::{MotionLimits, Twist};
+pub use path::Path;
 pub use polygon::{Polygon, PolygonError};
 pub use pose::{Pose, normalize_angle, shortest_angle};
 

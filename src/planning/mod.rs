@@ -11,26 +11,11 @@ pub use astar::Astar;
 pub use endpoints::{ESCAPE_RADIUS_M, flood};
 pub use field::PathField;
 
+pub use crate::geometry::Path;
+
 use crate::geometry::{Point, Pose};
 use crate::grid::Costmap;
 use serde::{Deserialize, Serialize};
-
-/// A way to go, from the start to the goal, in the map frame.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Path {
-    /// At least the start and the goal; neighbouring poses at most a few cells apart.
-    pub poses: Vec<Pose>,
-    /// What the planner minimised, in its own unit (comparable within one planner).
-    pub cost: f64,
-}
-
-impl Path {
-    /// Length in metres along the poses.
-    #[must_use]
-    pub fn length_m(&self) -> f64 {
-        self.poses.windows(2).map(|pair| pair[0].distance_to(pair[1].position())).sum()
-    }
-}
 
 /// Why there is no path.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -56,10 +56,12 @@ impl Overlay<'_> {
         if let Some(pose) = &self.robot_in_map {
             canvas.robot(pose);
         }
+        // A thousand goals need smaller crosses than ten.
+        let size = 1.4 * (40.0 / self.frontiers.len().max(1) as f64).sqrt().clamp(0.3, 1.0);
         for frontier in self.frontiers {
             let ink = if frontier.taboo { Ink::Taboo } else { Ink::Goal };
             if let Some(goal) = frontier.goal {
-                canvas.cross(goal, 1.4, ink);
+                canvas.cross(goal, size, ink);
             }
         }
         canvas

@@ -34,10 +34,10 @@ impl RunFolder {
         settings: &ExplorerSettings,
     ) -> anyhow::Result<()> {
         let grid = sim.map();
-        save_map(&self.0.join("map.yaml"), &grid, &SaveOptions::default())?;
+        save_map(&self.0.join("map.yaml"), grid, &SaveOptions::default())?;
         self.save("run.json", &record.to_json()?)?;
         let picture = Picture {
-            grid: &grid,
+            grid,
             thresholds: &settings.thresholds,
             trajectory: &recorder.trajectory,
             start_in_map: Some(record.start),
