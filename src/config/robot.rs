@@ -102,7 +102,11 @@ impl RobotConfig {
         }
     }
 
-    fn validate(&self) -> Result<(), RobotConfigError> {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`RobotConfigError`] that names the key, the value and what is allowed.
+    pub fn validate(&self) -> Result<(), RobotConfigError> {
         self.footprint.validate()?;
         for (key, value) in [
             ("limits.max_linear_mps", self.limits.max_linear_mps),

@@ -1,6 +1,6 @@
 //! Costs of standing in a cell: costmap_2d's static and inflation layers.
 
-use super::{Cell, CellState, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells};
+use super::{Cell, CellState, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells_within};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +13,9 @@ pub const INSCRIBED_COST: u8 = 253;
 pub const LETHAL_COST: u8 = 254;
 /// Cost of a cell that nobody has seen (costmap_2d's `NO_INFORMATION`).
 pub const UNKNOWN_COST: u8 = 255;
+
+/// Costs reach no farther than this, whatever the radius: the table stays small.
+const MAX_REACH_CELLS: f64 = 1000.0;
 
 /// Parameters of the inflation layer, with costmap_2d's names.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -42,12 +45,16 @@ impl Inflation {
         }
     }
 
-    /// Costs by squared distance in cells, up to the inflation radius (rounded up to
-    /// whole cells, as costmap_2d does).
+    /// How far costs reach, in whole cells: rounded up, as costmap_2d does.
+    fn reach_cells(&self, resolution_m: f64) -> u32 {
+        let radius_m = self.inflation_radius_m.max(self.inscribed_radius_m);
+        (radius_m / resolution_m).ceil().clamp(0.0, MAX_REACH_CELLS) as u32
+    }
+
+    /// Costs by squared distance in cells, as far as they reach.
     fn table(&self, resolution_m: f64) -> Vec<u8> {
-        let reach_cells = (self.inflation_radius_m / resolution_m).ceil().max(0.0);
-        let last = (reach_cells * reach_cells) as usize;
-        (0..=last).map(|squared| self.cost((squared as f64).sqrt() * resolution_m)).collect()
+        let last = self.reach_cells(resolution_m).pow(2);
+        (0..=last).map(|squared| self.cost(f64::from(squared).sqrt() * resolution_m)).collect()
     }
 }
 
@@ -67,7 +74,8 @@ impl Costmap {
         let info = *grid.info();
         let data = grid.data();
         let occupied = |i: usize| thresholds.classify(data[i]) == CellState::Occupied;
-        let squared = squared_distance_cells(&info, occupied);
+        let reach_cells = inflation.reach_cells(info.resolution_m());
+        let squared = squared_distance_cells_within(&info, reach_cells, occupied);
         let table = inflation.table(info.resolution_m());
         let costs = data
             .iter()

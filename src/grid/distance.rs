@@ -11,33 +11,44 @@ use super::GridInfo;
 /// Row-major, as the grid.
 #[must_use]
 pub fn squared_distance_cells(info: &GridInfo, is_obstacle: impl Fn(usize) -> bool) -> Vec<u32> {
+    squared_distance_cells_within(info, NONE, is_obstacle)
+}
+
+/// The same as far as it matters: exact up to `limit_cells`, and beyond that any
+/// number greater than its square. Rows without an obstacle near cost next to nothing.
+#[must_use]
+pub fn squared_distance_cells_within(
+    info: &GridInfo,
+    limit_cells: u32,
+    is_obstacle: impl Fn(usize) -> bool,
+) -> Vec<u32> {
     let (width, height) = (info.width(), info.height());
-    let mut vertical = vertical_distances(width, height, is_obstacle);
+    let mut distances = vertical_distances(width, height, is_obstacle);
     let mut envelope = Envelope::with_capacity(width);
     let mut row_squared = vec![0; width];
-    for row in vertical.chunks_exact_mut(width) {
-        envelope.build(row);
+    for row in distances.chunks_exact_mut(width) {
+        envelope.build(row, limit_cells);
         envelope.evaluate(row, &mut row_squared);
         row.copy_from_slice(&row_squared);
     }
-    vertical
+    distances
 }
 
 /// Cells to the nearest obstacle in the same column, `NONE` where there is none.
 fn vertical_distances(width: usize, height: usize, is_obstacle: impl Fn(usize) -> bool) -> Vec<u32> {
-    let mut distances = vec![NONE; width * height];
-    for index in 0..distances.len() {
-        distances[index] = if is_obstacle(index) {
-            0
-        } else if index >= width {
-            distances[index - width].saturating_add(1).min(NONE)
-        } else {
-            NONE
-        };
+    let mut distances: Vec<u32> = (0..width * height).map(|i| if is_obstacle(i) { 0 } else { NONE }).collect();
+    let nearer = |row: &mut [u32], neighbours: &[u32]| {
+        for (distance, &neighbour) in row.iter_mut().zip(neighbours) {
+            *distance = (*distance).min(neighbour.saturating_add(1));
+        }
+    };
+    for y in 1..height {
+        let (before, rest) = distances.split_at_mut(y * width);
+        nearer(&mut rest[..width], &before[(y - 1) * width..]);
     }
-    for index in (0..width * (height - 1)).rev() {
-        let below = distances[index + width].saturating_add(1).min(NONE);
-        distances[index] = distances[index].min(below);
+    for y in (1..height).rev() {
+        let (before, rest) = distances.split_at_mut(y * width);
+        nearer(&mut before[(y - 1) * width..], &rest[..width]);
     }
     distances
 }
@@ -58,11 +69,12 @@ impl Envelope {
         Self { sites: Vec::with_capacity(width), starts: Vec::with_capacity(width) }
     }
 
-    fn build(&mut self, heights: &[u32]) {
+    /// Of the sites whose height is at most `limit`: the others cannot come nearer.
+    fn build(&mut self, heights: &[u32], limit: u32) {
         self.sites.clear();
         self.starts.clear();
         for (site, &height) in heights.iter().enumerate() {
-            if height == NONE {
+            if height == NONE || height > limit {
                 continue;
             }
             let mut start = 0;
@@ -130,6 +142,7 @@ mod tests {
         ) {
             let info = GridInfo::new(width as u32, height as u32, 1.0, Pose::default()).unwrap();
             let fast = squared_distance_cells(&info, |i| cells[i]);
+            let near = squared_distance_cells_within(&info, 3, |i| cells[i]);
             for (index, &distance) in fast.iter().enumerate() {
                 let here = info.cell(index);
                 let expected = (0..cells.len())
@@ -138,6 +151,8 @@ mod tests {
                     .min()
                     .unwrap_or(u32::MAX);
                 prop_assert_eq!(distance, expected);
+                let within_is_right = if expected <= 9 { near[index] == expected } else { near[index] > 9 };
+                prop_assert!(within_is_right);
             }
         }
     }

@@ -109,11 +109,11 @@ pub enum MapError {
         height: u64,
     },
     /// Fewer pixels than the header promised.
-    #[error("{} is truncated: it has data for {found} of {width} x {height} pixels", .path.display())]
+    #[error("{} is truncated: it has data for at most {found} of {width} x {height} pixels", .path.display())]
     Truncated {
         /// Which file.
         path: PathBuf,
-        /// Pixels that are there.
+        /// Pixels that are there, or that a file of this size can hold.
         found: u64,
         /// Columns claimed.
         width: u64,

@@ -17,6 +17,9 @@ use std::path::Path;
 /// The largest image file that is read, bytes: four samples of two bytes a cell.
 const MAX_IMAGE_BYTES: u64 = 8 * MAX_CELLS;
 
+/// The most bytes that a PNG may unpack to: four samples of one byte a cell.
+const MAX_UNPACKED_BYTES: u64 = 4 * MAX_CELLS;
+
 /// Deflate's best: no PNG unpacks to more than this many times its size.
 const MAX_DEFLATE_RATIO: u64 = 1032;
 
@@ -42,10 +45,14 @@ pub(super) enum Channels {
 
 /// Reads a map's image.
 pub(super) fn read_image(path: &Path) -> Result<MapPixels, MapError> {
-    let bytes = read_file(path, "the image of a map", MAX_IMAGE_BYTES)?;
-    match bytes.as_slice() {
-        [b'P', b'2' | b'5', ..] => read_pgm(&bytes, path),
-        [0x89, b'P', b'N', b'G', ..] => read_png(&bytes, path),
+    decode_image(&read_file(path, "the image of a map", MAX_IMAGE_BYTES)?, path)
+}
+
+/// Decodes the bytes of a map's image; `path` is for messages.
+pub(super) fn decode_image(bytes: &[u8], path: &Path) -> Result<MapPixels, MapError> {
+    match bytes {
+        [b'P', b'2' | b'5', ..] => read_pgm(bytes, path),
+        [0x89, b'P', b'N', b'G', ..] => read_png(bytes, path),
         [b'P', b'1' | b'3' | b'4' | b'6' | b'7', ..] => Err(kind(path, "another kind of PNM image")),
         [b'B', b'M', ..] => Err(kind(path, "a BMP image")),
         [0xff, 0xd8, ..] => Err(kind(path, "a JPEG image")),
@@ -73,19 +80,15 @@ fn read_png(bytes: &[u8], path: &Path) -> Result<MapPixels, MapError> {
         path: path.to_path_buf(),
         reason: error.to_string().lines().collect::<Vec<_>>().join(" "),
     };
+    check_png_size(bytes, path)?;
     let mut limits = Limits::no_limits();
-    limits.max_alloc = Some(MAX_IMAGE_BYTES);
+    limits.max_alloc = Some(MAX_UNPACKED_BYTES);
     let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(damaged)?;
     let (width, height) = decoder.dimensions();
-    let (wide, high) = (u64::from(width), u64::from(height));
-    let count = wide * high;
-    if !(1..=MAX_CELLS).contains(&count) {
-        return Err(MapError::ImageSize { path: path.to_path_buf(), width: wide, height: high });
-    }
-    // A header may promise more than its file can hold; sub-byte samples pack eight a byte.
-    let most = (bytes.len() as u64).saturating_mul(MAX_DEFLATE_RATIO * 8);
-    if count > most {
-        return Err(MapError::Truncated { path: path.to_path_buf(), found: most, width: wide, height: high });
+    let unpacked = decoder.total_bytes();
+    if unpacked > MAX_UNPACKED_BYTES {
+        let reason = format!("it unpacks to {unpacked} bytes: must be at most {MAX_UNPACKED_BYTES}");
+        return Err(MapError::Image { path: path.to_path_buf(), reason });
     }
     let decoded = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     let channels = match decoded {
@@ -101,6 +104,27 @@ fn read_png(bytes: &[u8], path: &Path) -> Result<MapPixels, MapError> {
         other => Channels::Rgba(other.into_rgba8().pixels().map(|p| p.0).collect()),
     };
     Ok(MapPixels { width, height, channels })
+}
+
+/// Checks the size that a PNG claims, before a decoder sees it: a header may promise
+/// more than a grid can hold, or than its own file can.
+fn check_png_size(bytes: &[u8], path: &Path) -> Result<(), MapError> {
+    // The first chunk follows signature, length and name, and begins with the size.
+    let Some(&[w0, w1, w2, w3, h0, h1, h2, h3]) = bytes.get(16..24) else {
+        return Err(MapError::Image { path: path.to_path_buf(), reason: "its header is cut off".to_owned() });
+    };
+    let width = u64::from(u32::from_be_bytes([w0, w1, w2, w3]));
+    let height = u64::from(u32::from_be_bytes([h0, h1, h2, h3]));
+    let count = width * height;
+    if !(1..=MAX_CELLS).contains(&count) {
+        return Err(MapError::ImageSize { path: path.to_path_buf(), width, height });
+    }
+    // A byte holds up to eight samples of one bit.
+    let found = (bytes.len() as u64).saturating_mul(MAX_DEFLATE_RATIO * 8);
+    if count > found {
+        return Err(MapError::Truncated { path: path.to_path_buf(), found, width, height });
+    }
+    Ok(())
 }
 
 /// What libpng keeps of a two-byte sample when it is told to strip.

@@ -12,7 +12,7 @@
 //! One thing is not copied: map_server reads the blue of an image without alpha as its
 //! transparency in scale mode.
 
-use super::image_file::{Channels, read_image};
+use super::image_file::{Channels, MapPixels, decode_image, read_image};
 use super::{MapError, MapMode, MapYaml};
 use crate::grid::{GridInfo, OccupancyGrid};
 use std::path::{Path, PathBuf};
@@ -37,6 +37,24 @@ pub fn load_map(path: &Path) -> Result<LoadedMap, MapError> {
     let yaml = MapYaml::read(path)?;
     let image_path = path.parent().unwrap_or(Path::new("")).join(&yaml.image);
     let pixels = read_image(&image_path)?;
+    assemble(yaml, &pixels, path, image_path)
+}
+
+/// A map from the bytes of its two files, as they were built into a program; `name`
+/// stands for the path in messages.
+///
+/// # Errors
+/// As [`load_map`].
+pub fn map_from_bytes(name: &str, yaml: &str, image: &[u8]) -> Result<LoadedMap, MapError> {
+    let path = Path::new(name);
+    let yaml = MapYaml::parse(yaml, path)?;
+    let image_path = yaml.image.clone();
+    let pixels = decode_image(image, &image_path)?;
+    assemble(yaml, &pixels, path, image_path)
+}
+
+/// The grid that pixels stand for under the rules of a map's YAML file.
+fn assemble(yaml: MapYaml, pixels: &MapPixels, path: &Path, image_path: PathBuf) -> Result<LoadedMap, MapError> {
     let info = GridInfo::new(pixels.width, pixels.height, yaml.resolution_m, yaml.origin_in_map)
         .map_err(|source| MapError::Grid { path: path.to_path_buf(), source })?;
     let rule = Rule { yaml: &yaml };
@@ -56,8 +74,8 @@ pub fn load_map(path: &Path) -> Result<LoadedMap, MapError> {
             rule.value(if averaged { mean(rgba) } else { mean(&[red, green, blue]) }, alpha == 0)
         }),
     };
-    let mut grid = OccupancyGrid::filled(info, OccupancyGrid::UNKNOWN);
-    grid.data_mut().copy_from_slice(&data);
+    let grid = OccupancyGrid::new(info, data)
+        .map_err(|error| MapError::Image { path: image_path.clone(), reason: error.to_string() })?;
     Ok(LoadedMap { grid, image_path, yaml })
 }
 
@@ -100,6 +118,7 @@ mod tests {
     use super::*;
     use crate::grid::Cell;
     use image::{ExtendedColorType, ImageFormat};
+    use proptest::prelude::*;
 
     const YAML: &str = "image: a.img\nresolution: 0.5\norigin: [-1.0, 2.0, 0.5]\nnegate: 0\n\
                         occupied_thresh: 0.65\nfree_thresh: 0.196\n";
@@ -120,6 +139,13 @@ mod tests {
         let mut out = std::io::Cursor::new(&mut bytes);
         image::write_buffer_with_format(&mut out, samples, width, 1, colour, ImageFormat::Png).unwrap();
         bytes
+    }
+
+    /// Makes the checksum of a PNG's first chunk right again.
+    fn sign_header(png: &mut [u8]) {
+        let step = |crc: u32| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
+        let crc = png[12..29].iter().fold(!0_u32, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc)));
+        png[29..33].copy_from_slice(&(!crc).to_be_bytes());
     }
 
     #[test]
@@ -181,19 +207,24 @@ mod tests {
     fn bad_images_are_answered_in_one_sentence() {
         let mut giant = png(&[0], 1, ExtendedColorType::L8);
         giant[16..24].copy_from_slice(&[0x7f, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff]);
+        sign_header(&mut giant);
+        let mut hollow = png(&[0], 1, ExtendedColorType::L8);
+        hollow[16..24].copy_from_slice(&[0, 0, 0x40, 0, 0, 0, 0x40, 0]);
+        sign_header(&mut hollow);
         let mut cut = png(&[7; 300], 100, ExtendedColorType::Rgb8);
         cut.truncate(50);
         for (image, expected) in [
             (b"".as_slice(), "a.img is empty"),
             (b"P5 2147483648 2147483648 255\n", "claims 2147483648 x 2147483648 pixels: must be at least 1"),
-            (b"P5 2 2 255\nabc", "is truncated: it has data for 3 of 2 x 2 pixels"),
+            (b"P5 2 2 255\nabc", "is truncated: it has data for at most 3 of 2 x 2 pixels"),
             (b"P5 2", "is a damaged image: its header ends before the height"),
             (b"P6 1 1 255\nabc", "another kind of PNM image: must be a PGM"),
             (b"\xff\xd8\xff", "a JPEG image: must be a PGM (P2 or P5) or PNG image"),
             (b"hello", "of no kind that is known here"),
             (b"\x89PNG", "is a damaged image: "),
             (&cut, "is a damaged image: "),
-            (&giant, "a.img"),
+            (&giant, "a.img claims 2147483647 x 2147483647 pixels: must be at least 1"),
+            (&hollow, "a.img is truncated: it has data for at most "),
         ] {
             let message = load(YAML, image).unwrap_err().to_string();
             assert!(message.contains(expected), "{message}");
@@ -216,5 +247,31 @@ mod tests {
         assert!(load_map(dir.path()).unwrap_err().to_string().contains("is a directory: must be the .yaml file"));
         let missing = load_map(&dir.path().join("no.yaml")).unwrap_err().to_string();
         assert!(missing.contains("cannot read") && missing.contains("no.yaml: No such file"), "{missing}");
+    }
+
+    #[test]
+    fn windows_line_ends_and_document_marks_are_taken() {
+        let yaml = format!("---\n{YAML}").replace('\n', "\r\n");
+        assert_eq!(load(&yaml, b"P5 1 1 255\n\x00").unwrap().grid.data(), &[100]);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(128))]
+        #[test]
+        fn noise_is_an_error_and_never_a_panic(
+            noise in proptest::collection::vec(any::<u8>(), 0..60),
+            at in 0usize..90,
+            start in prop_oneof![Just(b"P5 ".to_vec()), Just(b"P2 9 9 ".to_vec()), Just(Vec::new())],
+            yaml in "\\PC{0,60}",
+        ) {
+            let _ = load(YAML, &[start, noise.clone()].concat());
+            let mut damaged = png(&[7; 300], 100, ExtendedColorType::Rgb8);
+            for (byte, noise) in damaged.iter_mut().skip(at).zip(&noise) {
+                *byte ^= noise;
+            }
+            let _ = load(YAML, &damaged);
+            prop_assert!(load(&yaml, b"P5 1 1 255\n0").is_err());
+            let _ = load(&format!("{YAML}{yaml}"), b"P5 1 1 255\n0");
+        }
     }
 }

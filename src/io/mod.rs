@@ -14,6 +14,6 @@ mod pgm;
 
 pub use atomic::write_atomic;
 pub use error::MapError;
-pub use map_load::{LoadedMap, load_map};
+pub use map_load::{LoadedMap, load_map, map_from_bytes};
 pub use map_save::{MapImage, SaveOptions, SavedPaths, save_map};
 pub use map_yaml::{MapMode, MapYaml};

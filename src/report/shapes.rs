@@ -78,17 +78,18 @@ impl Canvas {
         self.capsule(center, center, radius_px, ink.index());
     }
 
-    /// A robot: a disc with a rim and a tick that shows where it is heading.
+    /// A robot: a disc with a rim, a nose and a tick that show where it is heading.
     pub fn robot(&mut self, pose_in_map: &Pose) {
         let unit = self.view().mark_px();
         let (x, y) = self.view().to_px(pose_in_map.position());
         let radius = 2.0 * unit;
         let (sin, cos) = pose_in_map.yaw.sin_cos();
         let ahead = |share: f64| (x + radius * share * cos, y - radius * share * sin);
-        self.capsule((x, y), (x, y), radius + unit * 0.6, Ink::Halo.index());
-        self.capsule(ahead(1.0), ahead(1.75), unit * 1.1, Ink::Halo.index());
-        self.capsule((x, y), (x, y), radius, Ink::Robot.index());
-        self.capsule(ahead(0.5), ahead(1.75), unit * 0.5, Ink::Robot.index());
+        for (ink, rim) in [(Ink::Halo, unit * 0.6), (Ink::Robot, 0.0)] {
+            self.capsule((x, y), (x, y), radius + rim, ink.index());
+            self.capsule(ahead(0.6), ahead(1.4), unit * 0.8 + rim, ink.index());
+        }
+        self.capsule(ahead(0.2), ahead(1.4), unit * 0.35, Ink::Halo.index());
     }
 
     /// Where a run began: a ring.
@@ -128,10 +129,10 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_faces_up_has_its_tick_above() {
+    fn a_robot_that_faces_up_has_its_nose_above() {
         let mut canvas = canvas();
         canvas.robot(&Pose::new(10.0, 10.0, std::f64::consts::FRAC_PI_2));
-        let reach_m = 3.2 * canvas.view().mark_px() * canvas.view().m_per_px();
+        let reach_m = 3.3 * canvas.view().mark_px() * canvas.view().m_per_px();
         assert_eq!(at(&canvas, 10.0, 10.0 + reach_m), Some(Ink::Robot.index()));
         assert_ne!(at(&canvas, 10.0, 10.0 - reach_m), Some(Ink::Robot.index()));
     }

@@ -143,6 +143,16 @@ impl World {
         f64::from(self.clearance_squared_cells(cell)).sqrt() * self.info.resolution_m() > radius_m
     }
 
+    /// The centre of the free cell that is farthest from all solid ones, the first of
+    /// several in row-major order: where a robot starts that is not told where.
+    #[must_use]
+    pub fn most_open_spot(&self) -> Pose {
+        let cells = (0..self.info.len()).map(|index| self.info.cell(index));
+        let most_open = cells.max_by_key(|&cell| (self.clearance_squared_cells(cell), -cell.y, -cell.x));
+        let center = self.info.center(most_open.unwrap_or(Cell::new(0, 0)));
+        Pose::new(center.x, center.y, 0.0)
+    }
+
     /// Checks that a robot can start at a pose.
     ///
     /// # Errors

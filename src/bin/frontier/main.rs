@@ -3,7 +3,9 @@
 mod args;
 mod commands;
 mod exit;
+mod inputs;
 mod output;
+mod values;
 
 use clap::Parser;
 use std::process::ExitCode;

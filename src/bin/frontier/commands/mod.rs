@@ -1,5 +1,7 @@
 //! One file for each command.
 
+pub mod detect;
+pub mod explore;
 pub mod map;
 
 use crate::args::Command;
@@ -8,6 +10,8 @@ use crate::exit::Outcome;
 /// Runs a parsed command.
 pub fn run(command: Command) -> anyhow::Result<Outcome> {
     match command {
+        Command::Explore(args) => explore::run(&args),
+        Command::Detect(args) => detect::run(&args),
         Command::Map(command) => map::run(&command),
     }
 }

@@ -24,8 +24,8 @@ pub struct Args {
     /// Print JSON.
     #[arg(long)]
     json: bool,
-    /// Draw the comparison as a PNG: red free only in A, blue occupied only in A,
-    /// orange known only in A, green known only in B.
+    /// Draw the comparison as a PNG: red is free in A and occupied in B, blue the other
+    /// way round, orange is known only in A, green only in B.
     #[arg(long, value_name = "OUT.png")]
     picture: Option<PathBuf>,
 }

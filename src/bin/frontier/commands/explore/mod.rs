@@ -1,0 +1,205 @@
+//! `frontier explore`: a simulated robot that knows nothing explores a world.
+
+mod files;
+mod progress;
+mod recorder;
+
+use crate::exit::Outcome;
+use crate::{inputs, output, values};
+use anyhow::Context;
+use files::RunFolder;
+use frontier_explorer::config::{Preset, RobotConfig};
+use frontier_explorer::control::{Body, PathFollower};
+use frontier_explorer::explore::{End, EndReason, Explorer, run as explore};
+use frontier_explorer::geometry::Pose;
+use frontier_explorer::navigation::Navigator;
+use frontier_explorer::sim::{MapStyle, SimConfig, SimRobot, World};
+use progress::Progress;
+use recorder::Recorder;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+/// Arguments of `frontier explore`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The world: a map_server YAML file. The built-in office when left out.
+    world: Option<PathBuf>,
+    /// How to explore: a YAML file, or the name of a built-in preset.
+    #[arg(long, value_name = "PRESET", default_value = "wfd")]
+    config: String,
+    /// The robot: a YAML file, or the name of a built-in robot.
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
+    robot: String,
+    /// Where the robot begins: X,Y or X,Y,YAW in metres and radians. The most open spot
+    /// when left out.
+    #[arg(long, value_name = "X,Y", value_parser = values::pose, allow_hyphen_values = true)]
+    start: Option<Pose>,
+    /// How far the lidar sees, metres, instead of the robot's own range.
+    #[arg(long, value_name = "M", value_parser = values::positive_metres)]
+    lidar_range: Option<f64>,
+    /// Standard deviation of the lidar's ranges, metres, instead of the robot's own.
+    #[arg(long, value_name = "M")]
+    lidar_noise: Option<f64>,
+    /// The values of the map: gmapping (-1, 0, 100) or cartographer (-1, 0 to 100).
+    #[arg(long, value_name = "STYLE", default_value = "gmapping", value_parser = parse_style)]
+    map_style: MapStyle,
+    /// Decides every random number of the run.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// End after this time of the simulation, seconds.
+    #[arg(long, value_name = "S", value_parser = values::positive_seconds)]
+    time_limit: Option<f64>,
+    /// Drive back to the start before ending.
+    #[arg(long)]
+    return_to_start: bool,
+    /// Where the results go.
+    #[arg(long, value_name = "DIR", default_value = "exploration")]
+    out: PathBuf,
+    /// Print the whole configuration, defaults included, and do nothing.
+    #[arg(long)]
+    print_config: bool,
+    /// Print nothing but errors.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn robot_help() -> String {
+    format!("The robot: a YAML file, or one of the built-in robots: {}", inputs::robot_names())
+}
+
+fn parse_style(text: &str) -> Result<MapStyle, String> {
+    match text {
+        "gmapping" => Ok(MapStyle::Gmapping),
+        "cartographer" => Ok(MapStyle::Cartographer),
+        _ => Err("must be gmapping or cartographer".to_owned()),
+    }
+}
+
+/// Runs `frontier explore`.
+pub fn run(args: &Args) -> anyhow::Result<Outcome> {
+    let (preset, robot) = (configured_preset(args)?, configured_robot(args)?);
+    if args.print_config {
+        let text = serde_saphyr::to_string(&preset).context("cannot write the configuration as YAML")?;
+        output::line(format_args!("{}", text.trim_end()))?;
+        return Ok(Outcome::Done);
+    }
+    let began = Instant::now();
+    let (truth, world_name) = match &args.world {
+        Some(file) => inputs::world(file)?,
+        None => inputs::default_world()?,
+    };
+    let config = sim_config(args, &preset);
+    let world = Arc::new(World::new(&truth, &config.thresholds).with_context(|| world_name.clone())?);
+    let start = args.start.unwrap_or_else(|| world.most_open_spot());
+    let mut sim = SimRobot::new(world, &robot, config, navigator(&preset, &robot), start)
+        .with_context(|| format!("world {world_name}"))?;
+    let mut explorer = Explorer::new(preset.explorer.clone(), robot.inflation())?;
+    // The folder is made before the run: nobody waits for a map that cannot be saved.
+    let folder = RunFolder::create(&args.out)?;
+    let progress = Progress::new(args.quiet, &world_name, &preset.preset);
+    let mut recorder = Recorder::new(progress, stop_flag()?);
+    let end = explore(&mut sim, &mut explorer, &mut recorder);
+    let record = recorder.record(
+        &sim,
+        &explorer,
+        &end,
+        recorder::Setup {
+            world: world_name,
+            preset: preset.preset.clone(),
+            robot: robot.name.clone(),
+            seed: args.seed,
+            start,
+            total_s: began.elapsed().as_secs_f64(),
+        },
+    );
+    folder.write(&record, &recorder, &sim, &preset.explorer)?;
+    if !args.quiet {
+        summarize(&record, &folder)?;
+    }
+    Ok(outcome(&end))
+}
+
+/// The preset with what the command line overrides.
+fn configured_preset(args: &Args) -> anyhow::Result<Preset> {
+    let mut preset = inputs::preset(&args.config)?;
+    preset.explorer.return_to_start |= args.return_to_start;
+    if args.time_limit.is_some() {
+        preset.explorer.patience.time_limit_s = args.time_limit;
+    }
+    Ok(preset)
+}
+
+/// The robot with what the command line overrides.
+fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
+    let mut robot = inputs::robot(&args.robot)?;
+    if let Some(range_m) = args.lidar_range {
+        robot.lidar.range_max_m = range_m;
+    }
+    robot.validate().with_context(|| format!("robot {}", robot.name))?;
+    Ok(robot)
+}
+
+fn sim_config(args: &Args, preset: &Preset) -> SimConfig {
+    let mut config = SimConfig {
+        seed: args.seed,
+        lidar_noise_std_m: args.lidar_noise,
+        control_period_s: preset.navigation.navigator.control_period_s,
+        thresholds: preset.explorer.thresholds,
+        ..SimConfig::default()
+    };
+    config.mapper.style = args.map_style;
+    config
+}
+
+fn navigator(preset: &Preset, robot: &RobotConfig) -> Navigator {
+    let body = Body { footprint: robot.footprint.clone(), limits: robot.limits };
+    let follower = PathFollower::new(preset.navigation.follower, body);
+    Navigator::new(preset.navigation.navigator, preset.explorer.planner.build(), Box::new(follower))
+}
+
+/// A flag that Ctrl-C and SIGTERM raise.
+fn stop_flag() -> anyhow::Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let raised = Arc::clone(&flag);
+    ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed)).context("cannot listen for Ctrl-C")?;
+    Ok(flag)
+}
+
+/// What the user reads when all is saved.
+fn summarize(record: &frontier_explorer::report::RunRecord, folder: &RunFolder) -> anyhow::Result<()> {
+    output::line(format_args!(
+        "{}: {}; {:.1} % of the reachable area after {:.0} s and {:.1} m, {} goals, {} failed",
+        reason_name(record.end_reason),
+        record.end_message,
+        100.0 * record.coverage,
+        record.sim_time_s,
+        record.distance_m,
+        record.goals_sent,
+        record.goals_failed,
+    ))?;
+    let speed = record.sim_time_s / record.wall.total_s.max(1e-9);
+    output::line(format_args!("simulated in {:.1} s, {speed:.0} times as fast as real time", record.wall.total_s))?;
+    for file in folder.files() {
+        output::line(format_args!("  {}", file.display()))?;
+    }
+    Ok(())
+}
+
+/// The name of an end, as run.json writes it.
+fn reason_name(reason: EndReason) -> String {
+    serde_json::to_value(reason).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
+}
+
+const fn outcome(end: &End) -> Outcome {
+    match end.reason {
+        EndReason::Complete | EndReason::OutsideRegion | EndReason::RecordingEnded => Outcome::Done,
+        EndReason::AllUnreachable
+        | EndReason::NoMap
+        | EndReason::NoPose
+        | EndReason::TimeLimit
+        | EndReason::Interrupted
+        | EndReason::Disconnected => Outcome::Incomplete,
+    }
+}

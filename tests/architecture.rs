@@ -1,0 +1,157 @@
+//! The invariants of ARCHITECTURE.md, checked on the source: which room may use which,
+//! and what may not appear where.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Each room with the rooms that it may use.
+const ROOMS: &[(&str, &[&str])] = &[
+    // Floor 0: data.
+    ("range", &[]),
+    ("geometry", &[]),
+    ("scan", &["geometry"]),
+    ("grid", &["geometry"]),
+    // Floor 1: algorithms, which do not know each other.
+    ("frontier", FLOOR_0),
+    ("selection", FLOOR_0),
+    ("planning", FLOOR_0),
+    ("control", FLOOR_0),
+    // Floor 2: the pipeline.
+    ("robot", FLOOR_0),
+    ("navigation", &["range", "geometry", "scan", "grid", "planning", "control", "robot"]),
+    ("explore", &["range", "geometry", "scan", "grid", "frontier", "selection", "planning", "control", "robot"]),
+    ("config", FLOORS_0_TO_2),
+    // Floor 3: the rim, whose rooms do not use each other, but for files.
+    ("io", FLOORS_0_TO_2),
+    ("sim", FLOORS_0_TO_2),
+    ("report", FLOORS_0_TO_2_AND_IO),
+];
+
+const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid"];
+const FLOORS_0_TO_2: &[&str] = &[
+    "range",
+    "geometry",
+    "scan",
+    "grid",
+    "frontier",
+    "selection",
+    "planning",
+    "control",
+    "robot",
+    "navigation",
+    "explore",
+    "config",
+];
+const FLOORS_0_TO_2_AND_IO: &[&str] = &[
+    "range",
+    "geometry",
+    "scan",
+    "grid",
+    "frontier",
+    "selection",
+    "planning",
+    "control",
+    "robot",
+    "navigation",
+    "explore",
+    "config",
+    "io",
+];
+
+/// Rooms of floors 0 to 2, in which no clock is read.
+const PURE: &[&str] = FLOORS_0_TO_2;
+
+/// The source files by room, without their comments and tests.
+fn sources() -> BTreeMap<String, Vec<(PathBuf, String)>> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut rooms: BTreeMap<String, Vec<(PathBuf, String)>> = BTreeMap::new();
+    let mut folders = vec![src.clone()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                let room = path.strip_prefix(&src).unwrap().iter().next().unwrap().to_string_lossy().into_owned();
+                let text = code(&std::fs::read_to_string(&path).unwrap());
+                rooms.entry(room.trim_end_matches(".rs").to_owned()).or_default().push((path, text));
+            }
+        }
+    }
+    rooms
+}
+
+/// What is left of a file without comments and without what follows `#[cfg(test)]`.
+fn code(text: &str) -> String {
+    text.lines()
+        .take_while(|line| line.trim() != "#[cfg(test)]")
+        .map(|line| line.split("//").next().unwrap_or_default())
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+fn is_test(path: &Path) -> bool {
+    path.file_stem().is_some_and(|stem| stem.to_string_lossy().ends_with("tests"))
+}
+
+#[test]
+fn rooms_use_lower_floors_only() {
+    let allowed: BTreeMap<&str, &[&str]> = ROOMS.iter().copied().collect();
+    let mut wrong = Vec::new();
+    for (room, files) in sources() {
+        if room == "lib" || room == "bin" {
+            continue;
+        }
+        let allowed = allowed.get(room.as_str()).unwrap_or_else(|| panic!("the room {room} is not in the table"));
+        for (path, text) in files.iter().filter(|(path, _)| !is_test(path)) {
+            for used in text.split("crate::").skip(1) {
+                let used: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                if used != room && !allowed.contains(&used.as_str()) {
+                    wrong.push(format!("{} uses crate::{used}", path.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn what_belongs_to_one_place_appears_there_alone() {
+    let rules: &[(&str, &[&str])] = &[
+        ("rosrust", &["ros"]),
+        ("clap", &["bin"]),
+        ("anyhow", &["bin"]),
+        ("std::fs", &["io", "report", "bin"]),
+        ("File::", &["io", "report", "bin"]),
+    ];
+    let mut wrong = Vec::new();
+    for (room, files) in sources() {
+        for (path, text) in files.iter().filter(|(path, _)| !is_test(path)) {
+            for (word, places) in rules {
+                if text.contains(word) && !places.contains(&room.as_str()) {
+                    wrong.push(format!("{} contains {word}", path.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn the_pipeline_reads_no_clock_and_draws_no_random_number() {
+    let forbidden = ["Instant", "SystemTime", "thread::spawn", "rand::", "rand_pcg", "std::env", "println!"];
+    let mut wrong = Vec::new();
+    for (room, files) in sources() {
+        if !PURE.contains(&room.as_str()) {
+            continue;
+        }
+        for (path, text) in files.iter().filter(|(path, _)| !is_test(path)) {
+            for word in forbidden {
+                if text.contains(word) {
+                    wrong.push(format!("{} contains {word}", path.display()));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
