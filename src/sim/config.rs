@@ -62,7 +62,7 @@ impl Default for MapperConfig {
             min_log_odds: -2.0,
             max_log_odds: 3.5,
             initial_reach_m: 5.0,
-            growth_m: 5.0,
+            growth_m: 2.0,
             publish_period_s: 1.0,
         }
     }

@@ -12,7 +12,7 @@
 //! mark a cell wrongly where the map's lattice is the world's.
 
 use super::map_window::MapWindow;
-use super::ray::Ray;
+use super::ray::{Ray, Walk};
 use super::{MapStyle, MapperConfig, SimConfigError};
 use crate::geometry::{Point, Pose};
 use crate::grid::{GridInfoError, OccupancyGrid};
@@ -65,9 +65,6 @@ pub struct Mapper {
     known_cells: usize,
     /// Even; a scan marks what it passes with this and what it hits with this + 1.
     mark: u32,
-    /// Indices passed and hit by the scan at work, kept for their memory.
-    passed: Vec<usize>,
-    hits: Vec<usize>,
 }
 
 impl Mapper {
@@ -81,7 +78,7 @@ impl Mapper {
         config.validate()?;
         let window = MapWindow::around(start, config.initial_reach_m, anchor, config.resolution_m)?;
         let cells = vec![UNSEEN; window.len()];
-        Ok(Self { config, window, cells, known_cells: 0, mark: 0, passed: Vec::new(), hits: Vec::new() })
+        Ok(Self { config, window, cells, known_cells: 0, mark: 0 })
     }
 
     /// Takes a scan into the map, taken with the lidar at `lidar_pose`.
@@ -97,12 +94,14 @@ impl Mapper {
         let beams = self.beams(lidar_pose, scan);
         self.make_room(&beams)?;
         self.mark += 2;
-        self.passed.clear();
-        self.hits.clear();
-        for beam in &beams {
-            self.trace(beam);
+        for beam in beams.iter().flatten().filter(|beam| beam.hit) {
+            self.hit(beam);
         }
-        self.update();
+        for (index, beam) in beams.iter().enumerate() {
+            if let Some(beam) = beam {
+                self.pass(beam, covered_by_neighbours(&beams, index, scan.angle_increment_rad));
+            }
+        }
         Ok(())
     }
 
@@ -136,7 +135,7 @@ impl Mapper {
         Ok(grid)
     }
 
-    fn beams(&self, lidar_pose: &Pose, scan: &LaserScan) -> Vec<Beam> {
+    fn beams(&self, lidar_pose: &Pose, scan: &LaserScan) -> Vec<Option<Beam>> {
         let start = self.window.to_lattice(lidar_pose.position());
         let resolution_m = self.window.resolution_m();
         let beam = |(angle_rad, reading): (f64, Reading)| {
@@ -148,14 +147,14 @@ impl Mapper {
             let (sin, cos) = (lidar_pose.yaw + angle_rad).sin_cos();
             Some(Beam { ray: Ray::new(start, (cos, sin)), length: range_m / resolution_m, hit })
         };
-        scan.readings().filter_map(beam).collect()
+        scan.readings().map(beam).collect()
     }
 
     /// Grows the window so that every beam ends inside it.
-    fn make_room(&mut self, beams: &[Beam]) -> Result<(), MapperError> {
-        let Some(first) = beams.first() else { return Ok(()) };
+    fn make_room(&mut self, beams: &[Option<Beam>]) -> Result<(), MapperError> {
+        let Some(first) = beams.iter().flatten().next() else { return Ok(()) };
         let (mut low, mut high) = (first.ray.point(0.0), first.ray.point(0.0));
-        for beam in beams {
+        for beam in beams.iter().flatten() {
             let (x, y) = beam.ray.point(beam.length);
             low = (low.0.min(x), low.1.min(y));
             high = (high.0.max(x), high.1.max(y));
@@ -171,63 +170,94 @@ impl Mapper {
         Ok(())
     }
 
-    /// Notes the cells that a beam passes and the one it hits.
-    fn trace(&mut self, beam: &Beam) {
-        let Beam { ray, length, hit } = beam;
-        let (x, y, mut walk) = ray.at(0.0);
-        let Some(mut index) = self.window.index(x, y) else { return };
+    /// Adds to the cell that a beam hits, if it can be told.
+    fn hit(&mut self, beam: &Beam) {
+        let Beam { ray, length, .. } = beam;
+        let (mut x, mut y, mut walk) = ray.at((length - 1.0).max(0.0));
         let (step_x, step_y) = ray.steps();
-        let row = step_y * self.window.width() as isize;
-        let go_on = |walk: &mut _, index: &mut usize| {
-            *index = index.wrapping_add_signed(if ray.advance(walk) { step_x } else { row });
+        let mut go_on = |walk: &mut Walk| {
+            if ray.advance(walk) { x += step_x as i64 } else { y += step_y as i64 }
         };
-        let slack = length * RANGE_PRECISION + ROUNDING;
-        let mark = self.mark;
-        let mut pass = |index: usize| {
-            if let Some(cell) = self.cells.get_mut(index)
-                && cell.mark != mark
-            {
-                self.known_cells += usize::from(cell.mark == 0);
-                cell.mark = mark;
-                self.passed.push(index);
-            }
-        };
+        let slack = beam.slack();
         while walk.left() < length - slack {
-            pass(index);
-            go_on(&mut walk, &mut index);
-        }
-        if !hit {
-            pass(index);
-            return;
+            go_on(&mut walk);
         }
         if walk.left() <= length + slack {
-            pass(index);
-            go_on(&mut walk, &mut index);
+            go_on(&mut walk);
         }
-        if walk.left() > length + slack {
-            self.hits.push(index);
+        if walk.left() <= length + slack {
+            return;
+        }
+        let index = self.window.index(x, y);
+        if let Some(cell) = index.and_then(|i| self.cells.get_mut(i))
+            && cell.mark <= self.mark
+        {
+            self.known_cells += usize::from(cell.mark == 0);
+            cell.mark = self.mark + 1;
+            cell.log_odds = (cell.log_odds + self.config.hit_log_odds).min(self.config.max_log_odds);
         }
     }
 
-    /// Adds the evidence of the noted cells, a hit before a pass.
-    fn update(&mut self) {
-        let MapperConfig { hit_log_odds, pass_log_odds, min_log_odds, max_log_odds, .. } = self.config;
-        for &index in &self.hits {
-            if let Some(cell) = self.cells.get_mut(index)
-                && cell.mark != self.mark + 1
-            {
-                self.known_cells += usize::from(cell.mark == 0);
-                cell.mark = self.mark + 1;
-                cell.log_odds = (cell.log_odds + hit_log_odds).min(max_log_odds);
-            }
+    /// Takes from the cells that a beam passes from a distance on, unless this scan has
+    /// seen them: those left before its end, and the one left there or in which it
+    /// ends unseen.
+    fn pass(&mut self, beam: &Beam, from: f64) {
+        let Beam { ray, length, hit } = beam;
+        let (mut x, mut y, mut walk) = ray.at(from);
+        let (step_x, step_y) = ray.steps();
+        // Of a ray along a border, rounding can name the cell on the other side.
+        while walk.left() <= from {
+            if ray.advance(&mut walk) { x += step_x as i64 } else { y += step_y as i64 }
         }
-        for &index in &self.passed {
-            if let Some(cell) = self.cells.get_mut(index)
-                && cell.mark == self.mark
+        let Some(mut index) = self.window.index(x, y) else { return };
+        let row = step_y * self.window.width() as isize;
+        let slack = beam.slack();
+        let end = length - slack;
+        let MapperConfig { pass_log_odds, min_log_odds, .. } = self.config;
+        let (mark, cells, known_cells) = (self.mark, self.cells.as_mut_slice(), &mut self.known_cells);
+        let mut pass = |index: usize| {
+            if let Some(cell) = cells.get_mut(index)
+                && cell.mark < mark
             {
+                *known_cells += usize::from(cell.mark == 0);
+                cell.mark = mark;
                 cell.log_odds = (cell.log_odds + pass_log_odds).max(min_log_odds);
             }
+        };
+        while walk.left() < end {
+            pass(index);
+            index = index.wrapping_add_signed(if ray.advance(&mut walk) { step_x } else { row });
         }
+        if !hit || walk.left() <= length + slack {
+            pass(index);
+        }
+    }
+}
+
+/// Distance in cells up to which all cells of a beam are passed by others too.
+///
+/// A cell whose centre is `r` cells away is seen under an angle of at least `1 / r`.
+/// Of the beams by twos, fours, eights and so on, the next one to each side of a beam
+/// passes with the other all cells that are seen under more than the angle between
+/// them. So an odd beam need only be followed from where its even neighbours leave
+/// gaps, and they in turn from where theirs do.
+fn covered_by_neighbours(beams: &[Option<Beam>], index: usize, increment_rad: f64) -> f64 {
+    if index == 0 {
+        return 0.0;
+    }
+    let step = 1 << index.trailing_zeros();
+    let neighbour = |index: usize| beams.get(index).and_then(Option::as_ref).map_or(0.0, |beam| beam.length);
+    let reach = neighbour(index - step).min(neighbour(index + step));
+    let without_gap = 1.0 / (2.0 * step as f64 * increment_rad.abs());
+    // A cell reaches beyond its centre; and what is covered must be so beyond doubt.
+    let covered = reach.min(without_gap) - 2.0;
+    if covered > 0.0 { covered } else { 0.0 }
+}
+
+impl Beam {
+    /// How far its end may be from where the range says, cells.
+    fn slack(&self) -> f64 {
+        self.length * RANGE_PRECISION + ROUNDING
     }
 }
 

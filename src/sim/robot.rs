@@ -106,7 +106,7 @@ impl SimRobot {
         let mut mapper = Mapper::new(config.mapper, start.position(), world.info().origin_in_map().position())?;
         let inflation = robot.inflation();
         let scan = look(&world, &mut lidar, &mut mapper, &start, 0.0)?;
-        let published = publish(&mapper, &config, &inflation, 0.0)?;
+        let published = inflated(mapper.publish()?, &config, &inflation, 0.0);
         let mut coverage = Coverage::new(&target);
         coverage.update(&published.grid);
         let mut this = Self {
@@ -209,8 +209,13 @@ impl SimRobot {
             self.scan = look(&self.world, &mut self.lidar, &mut self.mapper, &self.body.pose(), stamp_s)?;
         }
         if self.publish.is_due(self.now) {
-            self.published = publish(&self.mapper, &self.config, &self.inflation, stamp_s)?;
-            self.coverage.update(&self.published.grid);
+            let grid = self.mapper.publish()?;
+            self.published.stamp_s = stamp_s;
+            // On known ground nothing changes for long, and inflating takes its time.
+            if grid != *self.published.grid {
+                self.published = inflated(grid, &self.config, &self.inflation, stamp_s);
+                self.coverage.update(&self.published.grid);
+            }
         }
         Ok(())
     }
@@ -267,10 +272,9 @@ fn look(
     Ok((pose, Arc::new(scan)))
 }
 
-fn publish(mapper: &Mapper, config: &SimConfig, inflation: &Inflation, stamp_s: f64) -> Result<Published, MapperError> {
-    let grid = mapper.publish()?;
+fn inflated(grid: OccupancyGrid, config: &SimConfig, inflation: &Inflation, stamp_s: f64) -> Published {
     let costmap = Costmap::inflate(&grid, &config.thresholds, inflation);
-    Ok(Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) })
+    Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) }
 }
 
 #[cfg(test)]

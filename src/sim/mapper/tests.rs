@@ -73,6 +73,42 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+    #[test]
+    fn a_scan_says_what_its_rays_say_one_by_one(
+        (seed, rays, field) in (0u64..1000, 1u32..900, 0.5f64..TAU),
+        (x, y, yaw) in (0.0f64..80.0, 0.0f64..60.0, prop_oneof![Just(0.0), -4.0f64..4.0]),
+        gaps in 1usize..9,
+        noise_std_m in prop_oneof![Just(0.0), Just(0.05)],
+    ) {
+        let truth = pillars(seed);
+        let world = World::new(&truth, &Thresholds::default()).unwrap();
+        let at = truth.info().from_grid_units(x, y);
+        let pose = Pose::new(at.x, at.y, yaw);
+        let config = LidarConfig { rays, field_of_view_rad: field, noise_std_m, range_max_m: 3.0, ..LIDAR };
+        let mut scan = Lidar::new(config, seed).sweep(&world, &pose, 0.0);
+        scan.ranges_m.iter_mut().skip(gaps).step_by(7 * gaps).for_each(|range| *range = f32::NAN);
+        let (mut whole, mut single) =
+            (mapper(&truth, at, MapStyle::Gmapping), mapper(&truth, at, MapStyle::Gmapping));
+        whole.integrate(&pose, &scan).unwrap();
+        for ray in 0..scan.ranges_m.len() {
+            let mut one = LaserScan { ranges_m: vec![f32::NAN; scan.ranges_m.len()], ..scan.clone() };
+            one.ranges_m[ray] = scan.ranges_m[ray];
+            single.integrate(&pose, &one).unwrap();
+        }
+        let known = |mapper: &Mapper| {
+            let map = mapper.publish().unwrap();
+            let indices = (0..map.data().len()).filter(|&i| map.data()[i] >= 0);
+            let mut cells: Vec<Cell> =
+                indices.map(|i| truth.info().cell_at(map.info().center(map.info().cell(i)))).collect();
+            cells.sort();
+            cells
+        };
+        prop_assert_eq!(known(&whole), known(&single));
+    }
+}
+
 #[test]
 fn a_room_is_learned_whole_and_the_map_grows_with_it() {
     let info = GridInfo::new(80, 60, 0.1, Pose::new(-3.13, 2.71, 0.0)).unwrap();
