@@ -219,10 +219,10 @@ impl Drive {
         let old_plan = input.stamp_s - self.planned_s >= config.replan_period_s;
         let blocked = new_costmap && self.path.as_ref().is_some_and(|path| is_blocked(path, input));
         let retry = self.path.is_none() && new_costmap;
+        self.costmap_stamp_s = input.costmap_stamp_s;
         if !(old_plan || blocked || retry) {
             return;
         }
-        self.costmap_stamp_s = input.costmap_stamp_s;
         self.planned_s = input.stamp_s;
         match planner.plan(input.costmap, &input.pose_in_map, &self.goal) {
             Ok(path) => {

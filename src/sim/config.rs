@@ -49,6 +49,12 @@ pub struct MapperConfig {
     pub growth_m: f64,
     /// From one published map to the next, seconds of simulated time.
     pub publish_period_s: f64,
+    /// A scan is taken in when the robot has moved this far since the last one, metres.
+    pub filter_distance_m: f64,
+    /// Or turned this far, radians.
+    pub filter_angle_rad: f64,
+    /// Or waited this long, seconds.
+    pub filter_time_s: f64,
 }
 
 impl Default for MapperConfig {
@@ -64,6 +70,9 @@ impl Default for MapperConfig {
             initial_reach_m: 5.0,
             growth_m: 2.0,
             publish_period_s: 1.0,
+            filter_distance_m: 0.1,
+            filter_angle_rad: 0.2,
+            filter_time_s: 1.0,
         }
     }
 }
@@ -81,6 +90,9 @@ impl MapperConfig {
         negative("mapper.min_log_odds", f64::from(self.min_log_odds))?;
         OutOfRange::unless_positive("mapper.initial_reach_m", self.initial_reach_m)?;
         OutOfRange::unless_positive("mapper.growth_m", self.growth_m)?;
+        OutOfRange::unless_not_negative("mapper.filter_distance_m", self.filter_distance_m)?;
+        OutOfRange::unless_not_negative("mapper.filter_angle_rad", self.filter_angle_rad)?;
+        OutOfRange::unless_not_negative("mapper.filter_time_s", self.filter_time_s)?;
         Ok(period("mapper.publish_period_s", self.publish_period_s)?)
     }
 }

@@ -9,6 +9,7 @@ mod diff_drive;
 mod lidar;
 mod map_window;
 mod mapper;
+mod motion_filter;
 mod odometry;
 mod ray;
 mod robot;

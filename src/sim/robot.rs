@@ -4,6 +4,7 @@
 //! shows is what the lidar has seen of the world, published once in a while. The map
 //! frame is the world's.
 
+use super::motion_filter::MotionFilter;
 use super::schedule::{Micros, Periodic, seconds};
 use super::{
     Coverage, DiffDrive, Lidar, Mapper, MapperError, Odometry, SimConfig, SimConfigError, TargetArea, World, WorldError,
@@ -76,6 +77,9 @@ pub struct SimRobot {
     sweep: Periodic,
     publish: Periodic,
     scan: (Pose, Arc<LaserScan>),
+    /// Whether the map shows that scan.
+    is_mapped: bool,
+    filter: MotionFilter,
     published: Published,
     twist_command: Twist,
     navigation: Navigation,
@@ -105,7 +109,11 @@ impl SimRobot {
         let mut lidar = Lidar::new(lidar_config, config.seed);
         let mut mapper = Mapper::new(config.mapper, start.position(), world.info().origin_in_map().position())?;
         let inflation = robot.inflation();
-        let scan = look(&world, &mut lidar, &mut mapper, &start, 0.0)?;
+        let lidar_pose = lidar.pose(&start);
+        let scan = (lidar_pose, Arc::new(lidar.sweep(&world, &lidar_pose, 0.0)));
+        mapper.integrate(&scan.0, &scan.1)?;
+        let mut filter = MotionFilter::default();
+        filter.accepts(&lidar_pose, 0.0, &config.mapper);
         let published = inflated(mapper.publish()?, &config, &inflation, 0.0);
         let mut coverage = Coverage::new(&target);
         coverage.update(&published.grid);
@@ -125,6 +133,8 @@ impl SimRobot {
             sweep: Periodic::every_s(1.0 / lidar_config.rate_hz),
             publish: Periodic::every_s(config.mapper.publish_period_s),
             scan,
+            is_mapped: true,
+            filter,
             published,
             twist_command: Twist::ZERO,
             navigation: Navigation { command: 0, state: NavigationState::Idle },
@@ -206,9 +216,18 @@ impl SimRobot {
     fn happen(&mut self) -> Result<(), MapperError> {
         let stamp_s = seconds(self.now);
         if self.sweep.is_due(self.now) {
-            self.scan = look(&self.world, &mut self.lidar, &mut self.mapper, &self.body.pose(), stamp_s)?;
+            let pose = self.lidar.pose(&self.body.pose());
+            self.scan = (pose, Arc::new(self.lidar.sweep(&self.world, &pose, stamp_s)));
+            self.is_mapped = self.filter.accepts(&pose, stamp_s, &self.config.mapper);
+            if self.is_mapped {
+                self.mapper.integrate(&pose, &self.scan.1)?;
+            }
         }
         if self.publish.is_due(self.now) {
+            // A map shows all that was sensed before its stamp.
+            if !std::mem::replace(&mut self.is_mapped, true) {
+                self.mapper.integrate(&self.scan.0, &self.scan.1)?;
+            }
             let grid = self.mapper.publish()?;
             self.published.stamp_s = stamp_s;
             // On known ground nothing changes for long, and inflating takes its time.
@@ -256,20 +275,6 @@ impl Robot for SimRobot {
         self.navigator.command(command);
         Ok(())
     }
-}
-
-/// Takes a scan into the map; returns it with the lidar's pose.
-fn look(
-    world: &World,
-    lidar: &mut Lidar,
-    mapper: &mut Mapper,
-    base: &Pose,
-    stamp_s: f64,
-) -> Result<(Pose, Arc<LaserScan>), MapperError> {
-    let pose = lidar.pose(base);
-    let scan = lidar.sweep(world, &pose, stamp_s);
-    mapper.integrate(&pose, &scan)?;
-    Ok((pose, Arc::new(scan)))
 }
 
 fn inflated(grid: OccupancyGrid, config: &SimConfig, inflation: &Inflation, stamp_s: f64) -> Published {

@@ -90,7 +90,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         Some(file) => inputs::world(file)?,
         None => inputs::default_world()?,
     };
-    let config = sim_config(args, &preset);
+    let config = sim_config(args, &preset, truth.info().resolution_m());
     let world = Arc::new(World::new(&truth, &config.thresholds).with_context(|| world_name.clone())?);
     let start = args.start.unwrap_or_else(|| world.most_open_spot());
     let mut sim = SimRobot::new(world, &robot, config, navigator(&preset, &robot), start)
@@ -141,7 +141,8 @@ fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
     Ok(robot)
 }
 
-fn sim_config(args: &Args, preset: &Preset) -> SimConfig {
+/// The map gets the cells of the world: then coverage and maps compare cell by cell.
+fn sim_config(args: &Args, preset: &Preset, resolution_m: f64) -> SimConfig {
     let mut config = SimConfig {
         seed: args.seed,
         lidar_noise_std_m: args.lidar_noise,
@@ -150,6 +151,7 @@ fn sim_config(args: &Args, preset: &Preset) -> SimConfig {
         ..SimConfig::default()
     };
     config.mapper.style = args.map_style;
+    config.mapper.resolution_m = resolution_m;
     config
 }
 
