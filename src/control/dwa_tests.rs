@@ -211,7 +211,7 @@ fn could_stop(body: &Body, pose: &Pose, twist: Twist, obstacle: Point) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(ProptestConfig::with_cases(24))]
     #[test]
     fn never_touches_what_appears_in_time(
         polygon in any::<bool>(),

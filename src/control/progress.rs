@@ -1,7 +1,7 @@
 //! How far along its path a robot is, and which point of the path it steers for.
 
 use super::ControlInput;
-use crate::geometry::Point;
+use crate::geometry::{Point, Pose};
 use crate::grid::{Costmap, INSCRIBED_COST, LETHAL_COST, traverse};
 use crate::planning::Path;
 
@@ -58,7 +58,7 @@ impl PathProgress {
     pub fn ahead(&self, path: &Path, length_m: f64) -> Vec<Point> {
         let rest = path.poses.get(self.0..).unwrap_or_default();
         let mut left_m = length_m;
-        let mut points: Vec<Point> = rest.first().map(|pose| pose.position()).into_iter().collect();
+        let mut points: Vec<Point> = rest.first().map(Pose::position).into_iter().collect();
         for pair in rest.windows(2) {
             left_m -= pair[0].distance_to(pair[1].position());
             points.push(pair[1].position());

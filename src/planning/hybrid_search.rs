@@ -27,26 +27,30 @@ impl Primitive {
         Self { along: (1..=count).map(at).collect(), length_m }
     }
 
-    /// The poses from `start` on, without it.
-    pub fn poses(&self, start: Pose) -> impl Iterator<Item = Pose> + '_ {
+    /// The poses from `start` on, without it; the headings are not normalised.
+    fn along(&self, start: Pose) -> impl Iterator<Item = Pose> + '_ {
         let (sin, cos) = start.yaw.sin_cos();
         self.along.iter().map(move |p| {
             let (x, y) = (start.x + cos * p.x - sin * p.y, start.y + sin * p.x + cos * p.y);
-            Pose::new(x, y, normalize_angle(start.yaw + p.yaw))
+            Pose::new(x, y, start.yaw + p.yaw)
         })
     }
 
     /// Where it ends, when nothing stands on the way.
     fn end(&self, start: Pose, swept: &Swept<'_>) -> Option<Pose> {
-        let mut end = None;
-        for pose in self.poses(start) {
+        let mut end = start;
+        for pose in self.along(start) {
             if !swept.is_free(&pose) {
                 return None;
             }
-            end = Some(pose);
+            end = pose;
         }
-        end
+        Some(normalized(end))
     }
+}
+
+fn normalized(pose: Pose) -> Pose {
+    Pose { yaw: normalize_angle(pose.yaw), ..pose }
 }
 
 /// Everything a search depends on besides its start.
@@ -76,10 +80,14 @@ pub enum Outcome {
     Limit,
 }
 
+/// A bin of the state lattice: column, row, heading.
+type Bin = (i32, i32, u32);
+
 /// One state of the tree.
 #[derive(Clone, Copy, Debug)]
 struct State {
     pose: Pose,
+    bin: Bin,
     length_m: f64,
     /// The state before and the motion from there; the root has none.
     parent: Option<(u32, u8)>,
@@ -104,14 +112,14 @@ where
         let heading = (turn * f64::from(task.headings)).round() as u32 % task.headings;
         ((pose.x / task.lattice_m).floor() as i32, (pose.y / task.lattice_m).floor() as i32, heading)
     };
-    let mut states = vec![State { pose: start, length_m: 0.0, parent: None, expanded: false }];
-    let mut best: HashMap<(i32, i32, u32), u32, BuildHasherDefault<BinHasher>> = HashMap::default();
+    let mut states = vec![State { pose: start, bin: bin(&start), length_m: 0.0, parent: None, expanded: false }];
+    let mut best: HashMap<Bin, u32, BuildHasherDefault<BinHasher>> = HashMap::default();
     best.insert(bin(&start), 0);
     // Among equal sums the later state, which is farther on its way.
     let mut queue = BinaryHeap::from([(Reverse(order((task.estimate_m)(&start))), 0_u32)]);
     while let Some((_, id)) = queue.pop() {
         let state = states[id as usize];
-        if state.expanded || best.get(&bin(&state.pose)) != Some(&id) {
+        if state.expanded || best.get(&state.bin) != Some(&id) {
             continue;
         }
         if (task.is_goal)(&state.pose) {
@@ -126,12 +134,13 @@ where
             let Some(pose) = primitive.end(state.pose, task.swept) else { continue };
             let length_m = state.length_m + primitive.length_m;
             let next = states.len() as u32;
-            let known = best.entry(bin(&pose)).or_insert(next);
+            let bin = bin(&pose);
+            let known = best.entry(bin).or_insert(next);
             if *known != next && states[*known as usize].length_m <= length_m {
                 continue;
             }
             *known = next;
-            states.push(State { pose, length_m, parent: Some((id, motion as u8)), expanded: false });
+            states.push(State { pose, bin, length_m, parent: Some((id, motion as u8)), expanded: false });
             queue.push((Reverse(order(length_m + (task.estimate_m)(&pose))), next));
         }
     }
@@ -147,7 +156,7 @@ fn unwind(states: &[State], primitives: &[Primitive], mut id: u32) -> Vec<Pose> 
     }
     let mut poses = vec![states[0].pose];
     for (parent, motion) in chain.into_iter().rev() {
-        poses.extend(primitives[motion as usize].poses(states[parent as usize].pose));
+        poses.extend(primitives[motion as usize].along(states[parent as usize].pose).map(normalized));
     }
     poses
 }
