@@ -6,7 +6,7 @@
 
 use anyhow::{Context, Result};
 use frontier_explorer::config::{RobotConfig, builtin_robot};
-use frontier_explorer::control::{Body, FollowerConfig, PathFollower};
+use frontier_explorer::control::{FollowerConfig, PathFollower};
 use frontier_explorer::geometry::{Point, Pose};
 use frontier_explorer::grid::{Costmap, Thresholds};
 use frontier_explorer::io::load_map;
@@ -80,7 +80,7 @@ fn main() -> Result<()> {
 /// Through the office on known ground, room by room.
 fn drive(world: &Arc<World>, start: &Pose) -> Result<()> {
     let robot = robot()?;
-    let body = Body { footprint: robot.footprint.clone(), limits: robot.limits };
+    let body = robot.body();
     let follower = Box::new(PathFollower::new(FollowerConfig::default(), body));
     let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower);
     let mut sim = SimRobot::new(Arc::clone(world), &robot, SimConfig::default(), navigator, *start)?;

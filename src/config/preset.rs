@@ -1,6 +1,6 @@
 //! Presets: one YAML file for each document that is implemented, in `configs/`.
 
-use crate::control::FollowerConfig;
+use crate::control::ControllerConfig;
 use crate::explore::{ExplorerSettings, SettingsError};
 use crate::navigation::NavigatorConfig;
 use crate::range::OutOfRange;
@@ -46,8 +46,8 @@ pub struct Preset {
 pub struct NavigationSettings {
     /// Tolerances and patience.
     pub navigator: NavigatorConfig,
-    /// The path follower.
-    pub follower: FollowerConfig,
+    /// How paths become velocity commands.
+    pub controller: ControllerConfig,
 }
 
 /// The presets in the binary, by name, as in `configs/`.
@@ -88,7 +88,7 @@ impl Preset {
 
 impl NavigationSettings {
     fn validate(&self) -> Result<(), OutOfRange> {
-        let (navigator, follower) = (&self.navigator, &self.follower);
+        let navigator = &self.navigator;
         for (key, value) in [
             ("navigator.control_period_s", navigator.control_period_s),
             ("navigator.xy_goal_tolerance_m", navigator.xy_goal_tolerance_m),
@@ -97,13 +97,10 @@ impl NavigationSettings {
             ("navigator.planner_patience_s", navigator.planner_patience_s),
             ("navigator.controller_patience_s", navigator.controller_patience_s),
             ("navigator.turn_speed_rps", navigator.turn_speed_rps),
-            ("follower.lookahead_m", follower.lookahead_m),
-            ("follower.turn_on_spot_above_rad", follower.turn_on_spot_above_rad),
-            ("follower.heading_gain", follower.heading_gain),
         ] {
             OutOfRange::unless_positive(key, value)?;
         }
-        Ok(())
+        self.controller.validate()
     }
 }
 
@@ -147,6 +144,10 @@ mod tests {
         assert!(neighbours.contains("must be 4 or 8"), "{neighbours}");
         let zero = error("navigation: {navigator: {control_period_s: 0}}");
         assert_eq!(zero, "navigation.navigator.control_period_s is 0: must be finite and > 0");
+        let window = error("navigation: {controller: {name: dwa, horizon_s: -1}}");
+        assert_eq!(window, "navigation.controller.horizon_s is -1: must be finite and > 0");
+        let hybrid = error("explorer: {planner: {name: hybrid_astar, primitive_s: 0}}");
+        assert_eq!(hybrid, "explorer.planner.primitive_s is 0: must be finite and > 0");
         let name = Preset::built_in("wdf").unwrap_err().to_string();
         assert!(name.starts_with("there is no preset \"wdf\": must be one of wfd"), "{name}");
     }

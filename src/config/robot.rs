@@ -1,7 +1,7 @@
 //! A robot: outline, speeds, lidar and how its navigation inflates obstacles.
 //! One file for each in `configs/robots/`.
 
-use crate::geometry::{Footprint, FootprintError, MotionLimits, Pose};
+use crate::geometry::{Body, Footprint, FootprintError, MotionLimits, Pose};
 use crate::grid::Inflation;
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
@@ -88,6 +88,12 @@ impl RobotConfig {
         let robot: Self = serde_saphyr::from_str(text).map_err(|e| RobotConfigError::Syntax(e.to_string()))?;
         robot.validate()?;
         Ok(robot)
+    }
+
+    /// The body, for planners and controllers.
+    #[must_use]
+    pub fn body(&self) -> Body {
+        Body { footprint: self.footprint.clone(), limits: self.limits }
     }
 
     /// The inflation layer of this robot's costmap. A path is checked for the robot's

@@ -4,9 +4,10 @@
 //! 1992), with the lookahead point pulled in until the straight line to it is free, so
 //! that corners are not cut into obstacles.
 
-use super::{Body, ControlError, ControlInput, Controller};
-use crate::geometry::{Path, Point, Pose, Twist, shortest_angle};
-use crate::grid::{Costmap, INSCRIBED_COST, LETHAL_COST, traverse};
+use super::progress::PathProgress;
+use super::{ControlError, ControlInput, Controller};
+use crate::geometry::{Body, Pose, Twist, shortest_angle};
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the follower.
@@ -21,9 +22,24 @@ pub struct FollowerConfig {
     pub heading_gain: f64,
 }
 
+impl FollowerConfig {
+    /// The default parameters.
+    pub const DEFAULT: Self = Self { lookahead_m: 0.6, turn_on_spot_above_rad: 0.7, heading_gain: 3.0 };
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] that names the key, the value and what is allowed.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless_positive("controller.lookahead_m", self.lookahead_m)?;
+        OutOfRange::unless_positive("controller.turn_on_spot_above_rad", self.turn_on_spot_above_rad)?;
+        OutOfRange::unless_positive("controller.heading_gain", self.heading_gain)
+    }
+}
+
 impl Default for FollowerConfig {
     fn default() -> Self {
-        Self { lookahead_m: 0.6, turn_on_spot_above_rad: 0.7, heading_gain: 3.0 }
+        Self::DEFAULT
     }
 }
 
@@ -32,55 +48,14 @@ impl Default for FollowerConfig {
 pub struct PathFollower {
     config: FollowerConfig,
     body: Body,
-    /// Index of the path's pose nearest to the robot so far.
-    progress: usize,
+    progress: PathProgress,
 }
 
 impl PathFollower {
     /// A follower for a robot.
     #[must_use]
     pub const fn new(config: FollowerConfig, body: Body) -> Self {
-        Self { config, body, progress: 0 }
-    }
-
-    /// Moves the progress on to the nearest pose ahead, looking no farther than a few
-    /// lookahead lengths so that a path that returns to itself is not cut short.
-    fn advance(&mut self, path: &Path, robot: Point) {
-        let window_m = 3.0 * self.config.lookahead_m;
-        let mut along_m = 0.0;
-        let mut best = (f64::INFINITY, self.progress);
-        for (index, pose) in path.poses.iter().enumerate().skip(self.progress) {
-            let distance = pose.distance_to(robot);
-            if distance < best.0 {
-                best = (distance, index);
-            }
-            if let Some(next) = path.poses.get(index + 1) {
-                along_m += pose.distance_to(next.position());
-            }
-            if along_m > window_m {
-                break;
-            }
-        }
-        self.progress = best.1;
-    }
-
-    /// The farthest point of the path within the lookahead that can be driven to in a
-    /// straight line, or the next one when none can.
-    fn aim(&self, input: &ControlInput<'_>) -> Option<Point> {
-        let robot = input.pose_in_map.position();
-        let ahead = input.path.poses.get(self.progress..)?;
-        let next = ahead.iter().find(|p| p.distance_to(robot) > 1e-3).or(ahead.last())?.position();
-        let mut aim = next;
-        let mut along_m = 0.0;
-        for pair in ahead.windows(2) {
-            along_m += pair[0].distance_to(pair[1].position());
-            let candidate = pair[1].position();
-            if along_m > self.config.lookahead_m || !straight_is_free(input.costmap, robot, candidate) {
-                break;
-            }
-            aim = candidate;
-        }
-        Some(aim)
+        Self { config, body, progress: PathProgress::new() }
     }
 
     /// The forward speed from which the robot can still stop at the path's end.
@@ -92,17 +67,18 @@ impl PathFollower {
 
 impl Controller for PathFollower {
     fn name(&self) -> &'static str {
-        "path_follower"
+        "follow_path"
     }
 
     fn reset(&mut self) {
-        self.progress = 0;
+        self.progress = PathProgress::new();
     }
 
     fn control(&mut self, input: &ControlInput<'_>) -> Result<Twist, ControlError> {
-        self.advance(input.path, input.pose_in_map.position());
-        let aim = self.aim(input).ok_or(ControlError::EmptyPath)?;
-        let heading = Pose::facing(input.pose_in_map.position(), aim).yaw;
+        let robot = input.pose_in_map.position();
+        self.progress.advance(input.path, robot, 3.0 * self.config.lookahead_m);
+        let aim = self.progress.aim(input, self.config.lookahead_m).ok_or(ControlError::EmptyPath)?;
+        let heading = Pose::facing(robot, aim).yaw;
         let error = shortest_angle(input.pose_in_map.yaw, heading);
         let limits = &self.body.limits;
         // Never faster than a turn that can be braked within the remaining error.
@@ -117,27 +93,12 @@ impl Controller for PathFollower {
     }
 }
 
-/// Whether the robot's centre can go straight from one point to another: no cell on
-/// the line is blocked, except while it is leaving a place that already is.
-fn straight_is_free(costmap: &Costmap, from: Point, to: Point) -> bool {
-    let line = to - from;
-    let mut leaving = costmap.cost_at(from) >= INSCRIBED_COST;
-    for (cell, _) in traverse(costmap.info(), from, line.y.atan2(line.x), line.norm()) {
-        let cost = costmap.cost(cell);
-        if cost < INSCRIBED_COST {
-            leaving = false;
-        } else if !leaving || cost == LETHAL_COST {
-            return false;
-        }
-    }
-    true
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Footprint, MotionLimits};
-    use crate::grid::GridInfo;
+    use crate::geometry::Path;
+    use crate::geometry::{Footprint, MotionLimits, Point};
+    use crate::grid::{Costmap, GridInfo};
 
     const DT_S: f64 = 0.1;
 

@@ -5,7 +5,7 @@ use super::blacklist::{Blacklist, Taboo};
 use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind};
 use super::settings::ExplorerSettings;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector};
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Body, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
 use crate::planning::{GlobalPlanner, PathField};
 use crate::robot::MapSnapshot;
@@ -67,12 +67,12 @@ pub struct Lookout {
 }
 
 impl Lookout {
-    /// The algorithms that the settings name.
-    pub fn new(settings: &ExplorerSettings, inflation: Inflation) -> Self {
+    /// The algorithms that the settings name, for a robot.
+    pub fn new(settings: &ExplorerSettings, inflation: Inflation, body: &Body) -> Self {
         Self {
             detector: settings.detector.name.build(&settings.detector_params()),
             selector: settings.selection.build(),
-            planner: settings.planner.build(),
+            planner: settings.planner.build(body),
             thresholds: settings.thresholds,
             inflation,
             frontiers: Vec::new(),

@@ -11,7 +11,7 @@ use super::progress::ProgressMonitor;
 use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind};
 use super::settings::{ExplorerSettings, SettingsError};
 use super::state::{Decision, Drive, Phase, State, has_ended};
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Body, Point, Pose};
 use crate::grid::Inflation;
 use crate::robot::{Command, CommandId, MapSnapshot, NavigationState, Observation};
 
@@ -37,14 +37,15 @@ pub struct Explorer {
 
 impl Explorer {
     /// An explorer that has seen nothing yet. `inflation` describes the robot for the
-    /// costmaps that it makes where the robot's navigation provides none.
+    /// costmaps that it makes where the robot's navigation provides none, `body` for
+    /// planners that look at its outline and speeds.
     ///
     /// # Errors
     /// [`SettingsError`] when a setting cannot be.
-    pub fn new(settings: ExplorerSettings, inflation: Inflation) -> Result<Self, SettingsError> {
+    pub fn new(settings: ExplorerSettings, inflation: Inflation, body: &Body) -> Result<Self, SettingsError> {
         settings.validate()?;
         Ok(Self {
-            lookout: Lookout::new(&settings, inflation),
+            lookout: Lookout::new(&settings, inflation, body),
             blacklist: Blacklist::new(settings.taboo),
             settings,
             state: State::Begin,

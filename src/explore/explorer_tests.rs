@@ -2,12 +2,18 @@
 
 use super::*;
 use crate::explore::{PatienceSettings, TurnSettings};
+use crate::geometry::{Footprint, MotionLimits};
 use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
 use crate::robot::{Navigation, PoseError};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
 const POINT_ROBOT: Inflation = Inflation { inscribed_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
+
+const BODY: Body = Body {
+    footprint: Footprint::RadiusM(0.1),
+    limits: MotionLimits { max_linear_mps: 0.5, max_angular_rps: 2.0, max_linear_mps2: 1.0, max_angular_rps2: 4.0 },
+};
 
 /// A robot that sees three cells far, arrives at every goal at once and turns at once.
 struct Teleporter {
@@ -65,7 +71,7 @@ impl Teleporter {
     }
 
     fn explore(&mut self, settings: ExplorerSettings) -> (End, Explorer) {
-        let mut explorer = Explorer::new(settings, POINT_ROBOT).unwrap();
+        let mut explorer = Explorer::new(settings, POINT_ROBOT, &BODY).unwrap();
         for _ in 0..2000 {
             let observation = self.observation();
             let decision = explorer.step(&observation);
@@ -122,7 +128,7 @@ fn without_turns_it_drives_at_once() {
 #[test]
 fn the_nearest_goal_comes_first() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
-    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT).unwrap();
+    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT, &BODY).unwrap();
     let record = loop {
         let decision = explorer.step(&robot.observation());
         robot.obey(&decision.command);
@@ -178,7 +184,7 @@ fn returns_to_where_it_began() {
 #[test]
 fn a_lost_pose_pauses_and_ends_only_when_it_lasts() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
-    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT).unwrap();
+    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT, &BODY).unwrap();
     let mut lost = robot.observation();
     lost.pose_in_map = Err(PoseError::NotYet { map_frame: "map".to_owned(), base_frame: "base_link".to_owned() });
     for tick in 0..59 {
@@ -195,7 +201,7 @@ fn no_map_and_no_time_have_their_own_ends() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
     let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
     let settings = ExplorerSettings { turns, ..ExplorerSettings::default() };
-    let mut explorer = Explorer::new(settings.clone(), POINT_ROBOT).unwrap();
+    let mut explorer = Explorer::new(settings.clone(), POINT_ROBOT, &BODY).unwrap();
     let mut blind = robot.observation();
     blind.map = None;
     let mut end = None;
@@ -214,7 +220,7 @@ fn no_map_and_no_time_have_their_own_ends() {
 fn a_robot_off_its_map_waits_for_a_better_one() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
     let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
-    let mut explorer = Explorer::new(ExplorerSettings { turns, ..Default::default() }, POINT_ROBOT).unwrap();
+    let mut explorer = Explorer::new(ExplorerSettings { turns, ..Default::default() }, POINT_ROBOT, &BODY).unwrap();
     let mut off = robot.observation();
     off.pose_in_map = Ok(Pose::new(-50.0, 0.0, 0.0));
     for tick in 0..30 {

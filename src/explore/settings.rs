@@ -6,7 +6,7 @@ use super::standing::GoalHeading;
 use crate::frontier::{DetectorKind, DetectorParams, DetectorParamsError, Reachability, Representative};
 use crate::geometry::Polygon;
 use crate::grid::{Neighbourhood, Thresholds};
-use crate::planning::PlannerKind;
+use crate::planning::PlannerConfig;
 use crate::range::OutOfRange;
 use crate::selection::SelectorConfig;
 use serde::{Deserialize, Serialize};
@@ -130,7 +130,7 @@ pub struct ExplorerSettings {
     /// Which frontier comes first.
     pub selection: SelectorConfig,
     /// How ways are found.
-    pub planner: PlannerKind,
+    pub planner: PlannerConfig,
     /// How a goal is derived from a frontier.
     pub goal: GoalSettings,
     /// When to look about.
@@ -151,7 +151,7 @@ impl Default for ExplorerSettings {
             thresholds: Thresholds::default(),
             detector: DetectorSettings::default(),
             selection: SelectorConfig::Nearest,
-            planner: PlannerKind::default(),
+            planner: PlannerConfig::default(),
             goal: GoalSettings::default(),
             turns: TurnSettings::default(),
             taboo: TabooConfig::default(),
@@ -191,6 +191,7 @@ impl ExplorerSettings {
         ] {
             OutOfRange::unless_not_negative(key, value)?;
         }
+        self.planner.validate()?;
         Ok(self.detector_params().validate()?)
     }
 

@@ -3,12 +3,14 @@
 //! Lengths are metres, angles radians, counter-clockwise positive from the x axis
 //! (REP 103). Where a value belongs to a frame, its name says so (`pose_in_map`).
 
+mod body;
 mod footprint;
 mod motion;
 mod path;
 mod polygon;
 mod pose;
 
+pub use body::Body;
 pub use footprint::{Footprint, FootprintError};
 pub use motion::{MotionLimits, Twist};
 pub use path::Path;

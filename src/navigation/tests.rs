@@ -1,8 +1,8 @@
 //! The navigator on costmaps drawn by hand, with a perfect body.
 
 use super::*;
-use crate::control::{Body, FollowerConfig, PathFollower};
-use crate::geometry::{Footprint, MotionLimits};
+use crate::control::{FollowerConfig, PathFollower};
+use crate::geometry::{Body, Footprint, MotionLimits};
 use crate::grid::{Cell, GridInfo};
 use crate::planning::Astar;
 

@@ -82,6 +82,12 @@ impl<'a> Lattice<'a> {
         self.costs.len()
     }
 
+    /// Whether the robot's centre may be in a cell.
+    #[must_use]
+    pub fn is_open(&self, index: usize) -> bool {
+        self.costs[index] < INSCRIBED_COST
+    }
+
     /// Calls `visit` with every allowed step from a cell. A diagonal step needs both
     /// cells beside it passable: no corner is cut.
     #[inline]

@@ -1,20 +1,31 @@
 //! Paths over a costmap (floor 1): one file for each planner.
 
 mod astar;
+mod breadth_first;
 mod bucket_queue;
+mod d_star_lite;
+mod dijkstra;
 mod endpoints;
 mod field;
+mod hybrid_astar;
+mod hybrid_search;
 mod lattice;
 mod search;
+mod swept;
 
 pub use astar::Astar;
+pub use breadth_first::BreadthFirst;
+pub use d_star_lite::DStarLite;
+pub use dijkstra::Dijkstra;
 pub use endpoints::{ESCAPE_RADIUS_M, flood};
 pub use field::PathField;
+pub use hybrid_astar::{HybridAstar, HybridAstarConfig, HybridHeuristic};
 
 pub use crate::geometry::Path;
 
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Body, Point, Pose};
 use crate::grid::Costmap;
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
 /// Why there is no path.
@@ -89,24 +100,58 @@ pub trait GlobalPlanner: Send {
     fn plan(&mut self, costmap: &Costmap, start_in_map: &Pose, goal_in_map: &Pose) -> Result<Path, PlanError>;
 }
 
-/// The planners by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PlannerKind {
-    /// A* over the costmap's costs.
-    #[default]
-    Astar,
+/// The planners with their parameters, by name.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
+pub enum PlannerConfig {
+    /// The fewest cells, all passable ones alike (Yamauchi 1997).
+    BreadthFirst {},
+    /// The cheapest way over the costmap's costs, as navfn finds it.
+    Dijkstra {},
+    /// The same way, found with a heuristic.
+    Astar {},
+    /// The same way, repaired when the map changes (Koenig and Likhachev 2002).
+    DStarLite {},
+    /// Arcs that the robot can drive (Alghfeli, Alhosani and Almheiri).
+    HybridAstar(HybridAstarConfig),
 }
 
-impl PlannerKind {
-    /// All planners, for tables of tests and help.
-    pub const ALL: &'static [Self] = &[Self::Astar];
+impl Default for PlannerConfig {
+    fn default() -> Self {
+        Self::Astar {}
+    }
+}
 
-    /// A planner of this kind.
-    #[must_use]
-    pub fn build(self) -> Box<dyn GlobalPlanner> {
+impl PlannerConfig {
+    /// All planners with their default parameters, for tables of tests and help.
+    pub const ALL: &'static [Self] = &[
+        Self::BreadthFirst {},
+        Self::Dijkstra {},
+        Self::Astar {},
+        Self::DStarLite {},
+        Self::HybridAstar(HybridAstarConfig::DEFAULT),
+    ];
+
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] that names the key, the value and what is allowed.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
         match self {
-            Self::Astar => Box::new(Astar::default()),
+            Self::BreadthFirst {} | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Ok(()),
+            Self::HybridAstar(config) => config.validate(),
+        }
+    }
+
+    /// A planner with these parameters for a robot.
+    #[must_use]
+    pub fn build(&self, body: &Body) -> Box<dyn GlobalPlanner> {
+        match self {
+            Self::BreadthFirst {} => Box::new(BreadthFirst::default()),
+            Self::Dijkstra {} => Box::new(Dijkstra::default()),
+            Self::Astar {} => Box::new(Astar::default()),
+            Self::DStarLite {} => Box::new(DStarLite::default()),
+            Self::HybridAstar(config) => Box::new(HybridAstar::new(*config, body.clone())),
         }
     }
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::config::builtin_robot;
-use crate::control::{Body, FollowerConfig, PathFollower};
+use crate::control::{FollowerConfig, PathFollower};
 use crate::grid::{GridInfo, Thresholds};
 use crate::navigation::NavigatorConfig;
 use crate::planning::Astar;
@@ -22,7 +22,7 @@ fn two_rooms() -> Arc<World> {
 
 fn robot(config: SimConfig) -> SimRobot {
     let burger = builtin_robot("turtlebot3_burger").unwrap();
-    let body = Body { footprint: burger.footprint.clone(), limits: burger.limits };
+    let body = burger.body();
     let follower = PathFollower::new(FollowerConfig::default(), body);
     let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), Box::new(follower));
     SimRobot::new(two_rooms(), &burger, config, navigator, Pose::new(0.0, 0.0, 0.0)).unwrap()
@@ -112,7 +112,7 @@ fn the_same_seed_gives_the_same_run_byte_for_byte() {
 #[test]
 fn a_start_in_a_wall_is_refused_with_its_room() {
     let burger = builtin_robot("turtlebot3_burger").unwrap();
-    let body = Body { footprint: burger.footprint.clone(), limits: burger.limits };
+    let body = burger.body();
     let follower = Box::new(PathFollower::new(FollowerConfig::default(), body));
     let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower);
     let start = Pose::new(-1.98, 0.0, 0.0);

@@ -5,15 +5,14 @@ mod progress;
 mod recorder;
 
 use crate::exit::Outcome;
+use crate::simulation::{NamedWorld, Plan};
 use crate::{inputs, output, values};
 use anyhow::Context;
 use files::RunFolder;
 use frontier_explorer::config::{Preset, RobotConfig};
-use frontier_explorer::control::{Body, PathFollower};
-use frontier_explorer::explore::{End, EndReason, Explorer, run as explore};
+use frontier_explorer::explore::{End, EndReason, run as explore};
 use frontier_explorer::geometry::Pose;
-use frontier_explorer::navigation::Navigator;
-use frontier_explorer::sim::{MapStyle, SimConfig, SimRobot, World};
+use frontier_explorer::sim::MapStyle;
 use progress::Progress;
 use recorder::Recorder;
 use std::path::PathBuf;
@@ -86,35 +85,29 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         return Ok(Outcome::Done);
     }
     let began = Instant::now();
-    let (truth, world_name) = match &args.world {
+    let (truth, name) = match &args.world {
         Some(file) => inputs::world(file)?,
         None => inputs::default_world()?,
     };
-    let config = sim_config(args, &preset, truth.info().resolution_m());
-    let world = Arc::new(World::new(&truth, &config.thresholds).with_context(|| world_name.clone())?);
-    let start = args.start.unwrap_or_else(|| world.most_open_spot());
-    let mut sim = SimRobot::new(world, &robot, config, navigator(&preset, &robot), start)
-        .with_context(|| format!("world {world_name}"))?;
-    let mut explorer = Explorer::new(preset.explorer.clone(), robot.inflation())?;
+    let world = NamedWorld::new(name, &truth)?;
+    let start = args.start.unwrap_or_else(|| world.world.most_open_spot());
+    let plan = Plan {
+        preset,
+        robot,
+        world,
+        start,
+        seed: args.seed,
+        map_style: args.map_style,
+        lidar_noise_std_m: args.lidar_noise,
+    };
+    let (mut sim, mut explorer) = plan.prepare()?;
     // The folder is made before the run: nobody waits for a map that cannot be saved.
     let folder = RunFolder::create(&args.out)?;
-    let progress = Progress::new(args.quiet, &world_name, &preset.preset);
+    let progress = Progress::new(args.quiet, &plan.world.name, &plan.preset.preset);
     let mut recorder = Recorder::new(progress, stop_flag()?);
     let end = explore(&mut sim, &mut explorer, &mut recorder);
-    let record = recorder.record(
-        &sim,
-        &explorer,
-        &end,
-        recorder::Setup {
-            world: world_name,
-            preset: preset.preset.clone(),
-            robot: robot.name.clone(),
-            seed: args.seed,
-            start,
-            total_s: began.elapsed().as_secs_f64(),
-        },
-    );
-    folder.write(&record, &recorder, &sim, &preset.explorer)?;
+    let record = recorder.record(&plan, &sim, &explorer, &end, began.elapsed().as_secs_f64());
+    folder.write(&record, &recorder, &sim, &plan.preset.explorer)?;
     if !args.quiet {
         summarize(&record, &folder)?;
     }
@@ -139,26 +132,6 @@ fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
     }
     robot.validate().with_context(|| format!("robot {}", robot.name))?;
     Ok(robot)
-}
-
-/// The map gets the cells of the world: then coverage and maps compare cell by cell.
-fn sim_config(args: &Args, preset: &Preset, resolution_m: f64) -> SimConfig {
-    let mut config = SimConfig {
-        seed: args.seed,
-        lidar_noise_std_m: args.lidar_noise,
-        control_period_s: preset.navigation.navigator.control_period_s,
-        thresholds: preset.explorer.thresholds,
-        ..SimConfig::default()
-    };
-    config.mapper.style = args.map_style;
-    config.mapper.resolution_m = resolution_m;
-    config
-}
-
-fn navigator(preset: &Preset, robot: &RobotConfig) -> Navigator {
-    let body = Body { footprint: robot.footprint.clone(), limits: robot.limits };
-    let follower = PathFollower::new(preset.navigation.follower, body);
-    Navigator::new(preset.navigation.navigator, preset.explorer.planner.build(), Box::new(follower))
 }
 
 /// A flag that Ctrl-C and SIGTERM raise.

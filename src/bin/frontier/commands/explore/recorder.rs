@@ -1,8 +1,9 @@
 //! Watches a run and remembers what its report tells.
 
 use super::progress::Progress;
+use crate::simulation::Plan;
 use frontier_explorer::explore::{CandidateStatus, Decision, DecisionRecord, End, Explorer, Watcher};
-use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::geometry::Point;
 use frontier_explorer::grid::Thresholds;
 use frontier_explorer::report::{Frame, FrameLog, MedianMax, PictureGoal, RunRecord, SCHEMA_VERSION, Series, Wall};
 use frontier_explorer::robot::Observation;
@@ -13,22 +14,6 @@ use std::time::Instant;
 
 /// A new point of the trajectory is remembered after this way, metres.
 const TRAJECTORY_STEP_M: f64 = 0.05;
-
-/// What a run was begun with.
-pub struct Setup {
-    /// Name of the world.
-    pub world: String,
-    /// Name of the preset.
-    pub preset: String,
-    /// Name of the robot.
-    pub robot: String,
-    /// The seed.
-    pub seed: u64,
-    /// Where the robot began.
-    pub start: Pose,
-    /// What the run took in real time, seconds.
-    pub total_s: f64,
-}
 
 /// Remembers decisions, coverage, trajectory and frames.
 pub struct Recorder {
@@ -66,8 +51,8 @@ impl Recorder {
         }
     }
 
-    /// The run as run.json holds it.
-    pub fn record(&mut self, sim: &SimRobot, explorer: &Explorer, end: &End, setup: Setup) -> RunRecord {
+    /// The run as run.json holds it; it took `total_s` seconds of real time.
+    pub fn record(&mut self, plan: &Plan, sim: &SimRobot, explorer: &Explorer, end: &End, total_s: f64) -> RunRecord {
         let stats = sim.stats();
         self.progress.finish(&stats);
         let counts = *explorer.counts();
@@ -76,11 +61,11 @@ impl Recorder {
         let cell_m2 = map.info().cell_area_m2();
         RunRecord {
             schema_version: SCHEMA_VERSION,
-            world: setup.world,
-            preset: setup.preset,
-            robot: setup.robot,
-            seed: Some(setup.seed),
-            start: setup.start,
+            world: plan.world.name.clone(),
+            preset: plan.preset.preset.clone(),
+            robot: plan.robot.name.clone(),
+            seed: Some(plan.seed),
+            start: plan.start,
             end_reason: end.reason,
             end_message: end.message.clone(),
             coverage: stats.coverage,
@@ -98,7 +83,7 @@ impl Recorder {
             left_behind: end.left_behind,
             decisions: std::mem::take(&mut self.decisions),
             series: self.series.points(),
-            wall: Wall { total_s: setup.total_s, decision_ms: MedianMax::of(&self.decision_ms) },
+            wall: Wall { total_s, decision_ms: MedianMax::of(&self.decision_ms) },
         }
     }
 

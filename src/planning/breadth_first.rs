@@ -1,0 +1,140 @@
+//! Breadth-first search: the shortest obstacle-free way, all passable cells alike.
+//!
+//! B. Yamauchi, "A Frontier-Based Approach for Autonomous Exploration" (CIRA 1997):
+//! the planner knows obstacles and free cells and no costs between them. A step to any
+//! of the eight neighbours counts 1, as a cell is what the paper's grid knows of
+//! length, and no corner is cut. The path's cost is its number of steps. No
+//! parameters. O(cells). Limit: the way may pass an obstacle as near as the inscribed
+//! radius, and a diagonal step is longer in metres than it counts.
+
+use super::endpoints::{goal_index, path_along, start_index};
+use super::lattice::Lattice;
+use super::{GlobalPlanner, Path, PlanError};
+use crate::geometry::Pose;
+use crate::grid::Costmap;
+
+/// Entry of a cell that the search has not reached.
+const NOT_REACHED: u8 = 0xff;
+/// Entry of the cell where it began.
+const START: u8 = 0xfe;
+
+/// The planner; it keeps its memory between plans.
+#[derive(Clone, Debug, Default)]
+pub struct BreadthFirst {
+    /// In which direction each cell was entered.
+    came_by: Vec<u8>,
+    /// The cells in the order in which they were reached.
+    reached: Vec<u32>,
+}
+
+impl BreadthFirst {
+    /// Whether the flood from `start` comes to `goal`.
+    fn flood(&mut self, lattice: &Lattice<'_>, start: usize, goal: usize) -> bool {
+        let Self { came_by, reached } = self;
+        came_by.clear();
+        came_by.resize(lattice.len(), NOT_REACHED);
+        reached.clear();
+        reached.push(start as u32);
+        came_by[start] = START;
+        let mut next = 0;
+        while let Some(&here) = reached.get(next) {
+            if here as usize == goal {
+                return true;
+            }
+            next += 1;
+            lattice.for_each_step(here as usize, |step| {
+                if came_by[step.to] == NOT_REACHED {
+                    came_by[step.to] = step.direction;
+                    reached.push(step.to as u32);
+                }
+            });
+        }
+        false
+    }
+
+    /// The cells from the start to a cell that was reached.
+    fn way(&self, lattice: &Lattice<'_>, goal: usize) -> Vec<usize> {
+        let mut way = vec![goal];
+        let mut here = goal;
+        while self.came_by[here] != START {
+            here = lattice.before(here, self.came_by[here]);
+            way.push(here);
+        }
+        way.reverse();
+        way
+    }
+}
+
+impl GlobalPlanner for BreadthFirst {
+    fn name(&self) -> &'static str {
+        "breadth_first"
+    }
+
+    fn plan(&mut self, costmap: &Costmap, start_in_map: &Pose, goal_in_map: &Pose) -> Result<Path, PlanError> {
+        let start = start_index(costmap, start_in_map)?;
+        let goal = goal_index(costmap, goal_in_map)?;
+        let lattice = Lattice::new(costmap);
+        if !self.flood(&lattice, start, goal) {
+            return Err(PlanError::no_path(goal_in_map.position()));
+        }
+        let way = self.way(&lattice, goal);
+        let cost = (way.len() - 1) as f64;
+        Ok(path_along(costmap.info(), &way, start_in_map, goal_in_map, cost))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::GridInfo;
+    use proptest::prelude::*;
+    use std::collections::VecDeque;
+
+    /// The number of steps by definition, with a queue of distances.
+    fn steps(costmap: &Costmap, start: usize, goal: usize) -> Option<u32> {
+        let lattice = Lattice::new(costmap);
+        let mut distance = vec![None; lattice.len()];
+        distance[start] = Some(0);
+        let mut queue = VecDeque::from([start]);
+        while let Some(here) = queue.pop_front() {
+            let next = distance[here].map(|d| d + 1);
+            lattice.for_each_step(here, |step| {
+                if distance[step.to].is_none() {
+                    distance[step.to] = next;
+                    queue.push_back(step.to);
+                }
+            });
+        }
+        distance[goal]
+    }
+
+    proptest! {
+        #[test]
+        fn the_cost_is_the_number_of_steps(
+            width in 2u32..20,
+            costs in proptest::collection::vec(prop_oneof![3 => 0u8..253, 1 => 253u8..=255], 400),
+            from in 0usize..400, to in 0usize..400,
+        ) {
+            let info = GridInfo::new(width, 400 / width, 1.0, Pose::default()).unwrap();
+            let costs = costs[..info.len()].to_vec();
+            let (from, to) = (from % info.len(), to % info.len());
+            prop_assume!(costs[from] < 253 && costs[to] < 253);
+            let costmap = Costmap::from_costs(info, costs).unwrap();
+            let pose = |index: usize| Pose::facing(info.center(info.cell(index)), info.center(info.cell(index)));
+            let path = BreadthFirst::default().plan(&costmap, &pose(from), &pose(to));
+            prop_assert_eq!(path.ok().map(|p| p.cost as u32), steps(&costmap, from, to));
+        }
+    }
+
+    #[test]
+    fn costs_do_not_matter_and_a_straight_way_is_straight() {
+        let info = GridInfo::new(9, 3, 1.0, Pose::default()).unwrap();
+        let mut costs = vec![0; 27];
+        costs[9..18].fill(252);
+        let costmap = Costmap::from_costs(info, costs).unwrap();
+        let path = BreadthFirst::default().plan(&costmap, &Pose::new(0.5, 1.5, 0.0), &Pose::new(8.5, 1.5, 0.0));
+        let path = path.unwrap();
+        assert_eq!(path.cost, 8.0);
+        assert!(path.poses.iter().all(|p| p.y == 1.5), "{path:?}");
+    }
+}
