@@ -1,13 +1,15 @@
-//! Poses, twists, polygons and footprints in the plane (floor 0).
+//! Poses, twists, circles, polygons and footprints in the plane (floor 0).
 //!
 //! Lengths are metres, angles radians, counter-clockwise positive from the x axis
 //! (REP 103). Where a value belongs to a frame, its name says so (`pose_in_map`).
 
+mod circle;
 mod footprint;
 mod motion;
 mod polygon;
 mod pose;
 
+pub use circle::Circle;
 pub use footprint::{Footprint, FootprintError};
 pub use motion::{MotionLimits, Twist};
 pub use polygon::{Polygon, PolygonError};
