@@ -85,7 +85,8 @@ impl DetectorParams {
         let info = grid.info();
         let robot = info.cell_at(robot_in_map.position());
         let (x, y) = (robot_in_map.x, robot_in_map.y);
-        if !info.contains(robot) {
+        // A pose that is no number would round to cell (0, 0).
+        if !(robot_in_map.is_finite() && info.contains(robot)) {
             let origin = info.origin_in_map();
             let (width, height) = (info.width(), info.height());
             return Err(DetectError::RobotOutsideMap { x, y, width, height, min_x: origin.x, min_y: origin.y });
