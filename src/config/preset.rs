@@ -140,6 +140,14 @@ mod tests {
         assert!(unknown.contains("min_size"), "{unknown}");
         let negative = error("explorer: {detector: {min_size_m: -1}}");
         assert_eq!(negative, "explorer.detector.min_size_m is -1: must be finite and >= 0");
+        let nested = error("explorer: {detector: {name: dbscan, dbscan: {eps: 3}}}");
+        assert!(nested.contains("eps") && nested.contains("eps_cells"), "{nested}");
+        let eps = error("explorer: {detector: {dbscan: {eps_cells: 0}}}");
+        assert_eq!(eps, "explorer.detector.dbscan.eps_cells is 0: must be within 1 to 100 cells");
+        let element = error("explorer: {detector: {image: {element_m: -0.1}}}");
+        assert_eq!(element, "explorer.detector.image.element_m is -0.1: must be within 0 to 5 m");
+        let edges = error("explorer: {detector: {canny: {low_threshold: 50, high_threshold: 40}}}");
+        assert_eq!(edges, "explorer.detector.canny.high_threshold is 40: must be finite and >= low_threshold");
         let neighbours = error("explorer: {detector: {neighbours: 6}}");
         assert!(neighbours.contains("must be 4 or 8"), "{neighbours}");
         let zero = error("navigation: {navigator: {control_period_s: 0}}");

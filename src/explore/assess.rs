@@ -44,7 +44,7 @@ impl Surroundings<'_> {
     /// Assesses one frontier.
     pub fn assess(&self, frontier: &Frontier) -> Assessed {
         let settings = self.settings;
-        let target = settings.goal.representative.of(frontier, self.info);
+        let target = settings.goal.representative.of(frontier, self.info, self.robot.position());
         let distance_m = self.robot.distance_to(target);
         let goal = self.field.and_then(|field| {
             standing_goal(field, &self.robot, target, settings.goal.search_radius_m, settings.goal.heading)

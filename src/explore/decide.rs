@@ -8,7 +8,7 @@ use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector};
 use crate::geometry::{Body, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
 use crate::planning::{GlobalPlanner, PathField};
-use crate::robot::MapSnapshot;
+use crate::robot::{MapSnapshot, Observation};
 use crate::selection::GoalSelector;
 use std::sync::Arc;
 
@@ -91,7 +91,7 @@ impl Lookout {
         costmap.is_passable(costmap.info().cell_at(point))
     }
 
-    /// Weighs the frontiers of a map.
+    /// Weighs the frontiers of a map; of the observation, time and scan count.
     ///
     /// # Errors
     /// [`DetectError`] when this map gives no answer; that is not "no frontier".
@@ -99,14 +99,16 @@ impl Lookout {
         &mut self,
         settings: &ExplorerSettings,
         blacklist: &Blacklist,
+        observation: &Observation,
         map: &MapSnapshot,
         robot: Pose,
-        now_s: f64,
     ) -> Result<Decided, DetectError> {
-        let grid = &map.grid;
-        let frontiers = self.detector.detect(&DetectionInput { grid, robot_in_map: robot })?;
-        self.frontiers = in_metres(&frontiers, grid.info());
+        let (grid, now_s) = (&map.grid, observation.stamp_s);
         let costmap = self.costmap(map);
+        let scan = observation.scan.as_ref().map(|(lidar_in_map, scan)| (lidar_in_map, &**scan));
+        let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&costmap), scan };
+        let frontiers = self.detector.detect(&input)?;
+        self.frontiers = in_metres(&frontiers, grid.info());
         // A robot that stands where it cannot reaches nothing: the recovery turn and
         // the next map may free it.
         let field = PathField::new(Arc::clone(&costmap), &robot).ok();

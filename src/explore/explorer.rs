@@ -226,7 +226,7 @@ impl Explorer {
     fn decide(&mut self, observation: &Observation, map: &MapSnapshot, pose: Pose) -> Option<DecisionRecord> {
         let now_s = observation.stamp_s;
         self.counts.detections += 1;
-        let decided = match self.lookout.decide(&self.settings, &self.blacklist, map, pose, now_s) {
+        let decided = match self.lookout.decide(&self.settings, &self.blacklist, observation, map, pose) {
             Ok(decided) => decided,
             Err(error) => {
                 self.wait_for_map(now_s, &error.to_string());

@@ -3,7 +3,10 @@
 
 use super::blacklist::TabooConfig;
 use super::standing::GoalHeading;
-use crate::frontier::{DetectorKind, DetectorParams, DetectorParamsError, Reachability, Representative};
+use crate::frontier::{
+    CannyParams, DbscanParams, DetectorKind, DetectorParams, DetectorParamsError, FastParams, ImageParams,
+    Reachability, Representative,
+};
 use crate::geometry::Polygon;
 use crate::grid::{Neighbourhood, Thresholds};
 use crate::planning::PlannerConfig;
@@ -117,6 +120,14 @@ pub struct DetectorSettings {
     pub reachability: Reachability,
     /// Smaller frontiers are dropped; number of cells times resolution, metres.
     pub min_size_m: f64,
+    /// Read by the image detector alone.
+    pub image: ImageParams,
+    /// Read by the dbscan detector alone.
+    pub dbscan: DbscanParams,
+    /// Read by the canny detector alone.
+    pub canny: CannyParams,
+    /// Read by the fast detector alone.
+    pub fast: FastParams,
 }
 
 /// The explorer's settings.
@@ -198,7 +209,9 @@ impl ExplorerSettings {
     /// The detector's parameters with the thresholds that apply to all detectors.
     #[must_use]
     pub fn detector_params(&self) -> DetectorParams {
-        let DetectorSettings { name: _, neighbours, reachability, min_size_m } = self.detector;
-        DetectorParams { neighbours, reachability, min_size_m, thresholds: self.thresholds }
+        let DetectorSettings { name: _, neighbours, reachability, min_size_m, image, dbscan, canny, fast } =
+            self.detector;
+        let thresholds = self.thresholds;
+        DetectorParams { neighbours, reachability, min_size_m, thresholds, image, dbscan, canny, fast }
     }
 }

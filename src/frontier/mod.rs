@@ -1,15 +1,27 @@
 //! Frontiers and the detectors that find them (floor 1): one file for each detector.
 
+mod canny;
+mod dbscan;
+mod fast;
+mod image;
 mod params;
+mod plane;
 mod representative;
 mod wavefront;
+mod yamauchi;
 
+pub use canny::{Canny, CannyParams};
+pub use dbscan::{Dbscan, DbscanParams};
+pub use fast::{Fast, FastParams};
+pub use image::{ImageDetector, ImageParams};
 pub use params::{DetectorParams, DetectorParamsError, Reachability};
 pub use representative::Representative;
 pub use wavefront::Wavefront;
+pub use yamauchi::Yamauchi;
 
-use crate::geometry::{Point, Pose};
-use crate::grid::{Cell, GridInfo, OccupancyGrid};
+use crate::geometry::{Circle, Point, Pose};
+use crate::grid::{Cell, Costmap, GridInfo, OccupancyGrid};
+use crate::scan::LaserScan;
 use serde::{Deserialize, Serialize};
 
 /// On which side of the boundary the cells of a frontier lie.
@@ -34,6 +46,8 @@ pub struct Frontier {
     pub cells: Vec<Cell>,
     /// On which side of the boundary they lie.
     pub side: CellSide,
+    /// A circle around it in the map frame, from the detectors that measure one.
+    pub circle: Option<Circle>,
 }
 
 impl Frontier {
@@ -42,6 +56,12 @@ impl Frontier {
     #[must_use]
     pub fn size_m(&self, info: &GridInfo) -> f64 {
         self.cells.len() as f64 * info.resolution_m()
+    }
+
+    /// The circle of the detector, or the smallest around the cells' centres.
+    #[must_use]
+    pub fn enclosing_circle(&self, info: &GridInfo) -> Option<Circle> {
+        self.circle.or_else(|| image::enclosing_circle(info, &self.cells))
     }
 
     /// The mean of the cells' centres in the map frame.
@@ -60,6 +80,19 @@ pub struct DetectionInput<'a> {
     pub grid: &'a OccupancyGrid,
     /// Where the robot is.
     pub robot_in_map: Pose,
+    /// The costmap of the robot's navigation, or ours, if there is one; its cells need
+    /// not be those of the map.
+    pub costmap: Option<&'a Costmap>,
+    /// The newest scan, with the lidar's pose in the map frame.
+    pub scan: Option<(&'a Pose, &'a LaserScan)>,
+}
+
+impl<'a> DetectionInput<'a> {
+    /// A map and a robot alone.
+    #[must_use]
+    pub const fn new(grid: &'a OccupancyGrid, robot_in_map: Pose) -> Self {
+        Self { grid, robot_in_map, costmap: None, scan: None }
+    }
 }
 
 /// Why no detection is possible; never to be taken for "no frontier is left".
@@ -101,7 +134,8 @@ pub trait FrontierDetector: Send {
     /// The detector's name in configuration files.
     fn name(&self) -> &'static str;
 
-    /// All frontiers that the robot can get to, ordered by their first cell.
+    /// All frontiers, those that the robot can get to alone where [`Reachability`] asks
+    /// for it, ordered by their first cell.
     ///
     /// # Errors
     /// [`DetectError`] when the question has no answer on this map.
@@ -112,20 +146,36 @@ pub trait FrontierDetector: Send {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DetectorKind {
-    /// The textbook Wavefront Frontier Detector.
+    /// The textbook Wavefront Frontier Detector (Topiwala 2018).
     #[default]
     Wavefront,
+    /// A scan of the whole grid (Yamauchi 1997).
+    Yamauchi,
+    /// Image processing with enclosing circles (Liang 2020).
+    Image,
+    /// Clusters by density (Alghfeli).
+    Dbscan,
+    /// Canny edges of the map under the costmap (Northwestern).
+    Canny,
+    /// The newest scan's contour and what is known already (Keidar and Kaminka 2012).
+    Fast,
 }
 
 impl DetectorKind {
     /// All detectors, for tables of tests, help and benchmarks.
-    pub const ALL: &'static [Self] = &[Self::Wavefront];
+    pub const ALL: &'static [Self] =
+        &[Self::Wavefront, Self::Yamauchi, Self::Image, Self::Dbscan, Self::Canny, Self::Fast];
 
     /// Its name in configuration files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Wavefront => "wavefront",
+            Self::Yamauchi => "yamauchi",
+            Self::Image => "image",
+            Self::Dbscan => "dbscan",
+            Self::Canny => "canny",
+            Self::Fast => "fast",
         }
     }
 
@@ -134,15 +184,29 @@ impl DetectorKind {
     pub fn build(self, params: &DetectorParams) -> Box<dyn FrontierDetector> {
         match self {
             Self::Wavefront => Box::new(Wavefront::new(*params)),
+            Self::Yamauchi => Box::new(Yamauchi::new(*params)),
+            Self::Image => Box::new(ImageDetector::new(*params)),
+            Self::Dbscan => Box::new(Dbscan::new(*params)),
+            Self::Canny => Box::new(Canny::new(*params)),
+            Self::Fast => Box::new(Fast::new(*params)),
         }
     }
 }
 
-/// Orders frontiers by their first cell and numbers them.
-pub(crate) fn number(mut frontiers: Vec<Vec<Cell>>, side: CellSide) -> Vec<Frontier> {
-    for cells in &mut frontiers {
-        cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
+/// Frontiers of these cells, in order.
+pub(crate) fn number(frontiers: Vec<Vec<Cell>>, side: CellSide) -> Vec<Frontier> {
+    order(frontiers.into_iter().map(|cells| Frontier { id: 0, cells, side, circle: None }).collect())
+}
+
+/// Orders the cells of each frontier, then the frontiers by their first cell, and
+/// numbers them.
+pub(crate) fn order(mut frontiers: Vec<Frontier>) -> Vec<Frontier> {
+    for frontier in &mut frontiers {
+        frontier.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
     }
-    frontiers.sort_unstable_by_key(|cells| cells.first().map(|cell| (cell.y, cell.x)));
-    frontiers.into_iter().zip(0..).map(|(cells, id)| Frontier { id, cells, side }).collect()
+    frontiers.sort_unstable_by_key(|frontier| frontier.cells.first().map(|cell| (cell.y, cell.x)));
+    for (frontier, id) in frontiers.iter_mut().zip(0..) {
+        frontier.id = id;
+    }
+    frontiers
 }

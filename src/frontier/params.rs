@@ -1,8 +1,9 @@
 //! What all detectors let the user set.
 
-use super::DetectError;
+use super::{CannyParams, DbscanParams, DetectError, FastParams, ImageParams};
 use crate::geometry::Pose;
 use crate::grid::{Cell, CellState, GridInfo, Neighbourhood, OccupancyGrid, ThresholdError, Thresholds};
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
 /// How far from the robot's own cell a free cell is looked for, metres: sensor noise
@@ -13,8 +14,9 @@ const SEED_RADIUS_M: f64 = 0.5;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reachability {
-    /// The paper's own rule (Topiwala 2018, Fig. 4, line 27): the search walks over
-    /// any cell with a free neighbour, and so through walls one or two cells thick.
+    /// The paper's own rule. Topiwala 2018, Fig. 4, line 27: the search walks over any
+    /// cell with a free neighbour, and so through walls one or two cells thick. The
+    /// detectors that scan the whole grid report all that they find.
     Textbook,
     /// Only over free cells that share a side: walls block, and so do two diagonal
     /// wall cells.
@@ -33,14 +35,22 @@ pub struct DetectorParams {
     pub min_size_m: f64,
     /// Where free ends and occupied begins.
     pub thresholds: Thresholds,
+    /// What the image detector alone reads.
+    pub image: ImageParams,
+    /// What the dbscan detector alone reads.
+    pub dbscan: DbscanParams,
+    /// What the canny detector alone reads.
+    pub canny: CannyParams,
+    /// What the fast detector alone reads.
+    pub fast: FastParams,
 }
 
 /// A detector parameter that cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum DetectorParamsError {
-    /// The smallest size is no length.
-    #[error("detector.min_size_m is {0}: must be finite and >= 0")]
-    MinSize(f64),
+    /// A number out of its range.
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// Thresholds out of order.
     #[error(transparent)]
     Thresholds(#[from] ThresholdError),
@@ -52,9 +62,10 @@ impl DetectorParams {
     /// # Errors
     /// [`DetectorParamsError`] that names the value and its range.
     pub fn validate(&self) -> Result<(), DetectorParamsError> {
-        if !(self.min_size_m.is_finite() && self.min_size_m >= 0.0) {
-            return Err(DetectorParamsError::MinSize(self.min_size_m));
-        }
+        OutOfRange::unless_not_negative("detector.min_size_m", self.min_size_m)?;
+        self.image.validate()?;
+        self.dbscan.validate()?;
+        self.canny.validate()?;
         Ok(self.thresholds.validate()?)
     }
 
@@ -74,7 +85,8 @@ impl DetectorParams {
         let info = grid.info();
         let robot = info.cell_at(robot_in_map.position());
         let (x, y) = (robot_in_map.x, robot_in_map.y);
-        if !info.contains(robot) {
+        // A pose that is no number would round to cell (0, 0).
+        if !(robot_in_map.is_finite() && info.contains(robot)) {
             let origin = info.origin_in_map();
             let (width, height) = (info.width(), info.height());
             return Err(DetectError::RobotOutsideMap { x, y, width, height, min_x: origin.x, min_y: origin.y });

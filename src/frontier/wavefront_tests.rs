@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use std::collections::BTreeSet;
 
 fn detect(grid: &OccupancyGrid, robot: (f64, f64), params: DetectorParams) -> Vec<Frontier> {
-    let input = DetectionInput { grid, robot_in_map: Pose::new(robot.0, robot.1, 0.0) };
+    let input = DetectionInput::new(grid, Pose::new(robot.0, robot.1, 0.0));
     Wavefront::new(params).detect(&input).unwrap()
 }
 

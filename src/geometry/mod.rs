@@ -1,9 +1,10 @@
-//! Poses, twists, polygons and footprints in the plane (floor 0).
+//! Poses, twists, circles, polygons and footprints in the plane (floor 0).
 //!
 //! Lengths are metres, angles radians, counter-clockwise positive from the x axis
 //! (REP 103). Where a value belongs to a frame, its name says so (`pose_in_map`).
 
 mod body;
+mod circle;
 mod footprint;
 mod motion;
 mod path;
@@ -11,6 +12,7 @@ mod polygon;
 mod pose;
 
 pub use body::Body;
+pub use circle::Circle;
 pub use footprint::{Footprint, FootprintError};
 pub use motion::{MotionLimits, Twist};
 pub use path::Path;

@@ -5,9 +5,9 @@ use crate::{inputs, output, values};
 use anyhow::Context;
 use comfy_table::Table;
 use frontier_explorer::explore::Position;
-use frontier_explorer::frontier::{DetectionInput, Frontier, Reachability};
+use frontier_explorer::frontier::{DetectionInput, DetectorKind, Frontier, Reachability};
 use frontier_explorer::geometry::Pose;
-use frontier_explorer::grid::{GridInfo, Neighbourhood};
+use frontier_explorer::grid::{Costmap, GridInfo, Neighbourhood};
 use frontier_explorer::io::{load_map, write_atomic};
 use frontier_explorer::report::{Overlay, OverlayFrontier, Theme};
 use serde::Serialize;
@@ -24,6 +24,12 @@ pub struct Args {
     /// Preset whose detector is used: a YAML file or a built-in name.
     #[arg(long, value_name = "PRESET", default_value = "wfd")]
     config: String,
+    /// Detector, instead of the preset's.
+    #[arg(long, value_name = "NAME", value_parser = parse_detector, long_help = detector_help())]
+    detector: Option<DetectorKind>,
+    /// Robot whose costmap the detectors that look at one see: a YAML file or a name.
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]
+    robot: String,
     /// What counts as reachable: walls_block, or textbook, which leaks through walls one
     /// or two cells thick.
     #[arg(long, value_parser = parse_reachability)]
@@ -43,6 +49,19 @@ pub struct Args {
     /// Colours of the overlay: clear, or paper (Topiwala 2018, Fig. 7).
     #[arg(long, default_value = "clear", value_parser = parse_theme)]
     theme: Theme,
+}
+
+fn parse_detector(name: &str) -> Result<DetectorKind, String> {
+    let known = DetectorKind::ALL.iter().copied().find(|kind| kind.name() == name);
+    known.ok_or_else(|| format!("must be one of {}", detector_names()))
+}
+
+fn detector_names() -> String {
+    DetectorKind::ALL.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ")
+}
+
+fn detector_help() -> String {
+    format!("Detector, instead of the preset's: {}", detector_names())
 }
 
 fn parse_reachability(text: &str) -> Result<Reachability, String> {
@@ -91,17 +110,19 @@ struct Row {
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let mut settings = inputs::preset(&args.config)?.explorer;
     let detector = &mut settings.detector;
+    detector.name = args.detector.unwrap_or(detector.name);
     detector.reachability = args.reachability.unwrap_or(detector.reachability);
     detector.neighbours = args.neighbours.unwrap_or(detector.neighbours);
     detector.min_size_m = args.min_size.unwrap_or(detector.min_size_m);
     settings.validate()?;
     let grid = load_map(&args.map)?.grid;
+    let costmap = Costmap::inflate(&grid, &settings.thresholds, &inputs::robot(&args.robot)?.inflation());
     let mut detector = settings.detector.name.build(&settings.detector_params());
     let frontiers = detector
-        .detect(&DetectionInput { grid: &grid, robot_in_map: args.at })
+        .detect(&DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(&grid, args.at) })
         .with_context(|| args.map.display().to_string())?;
     let info = grid.info();
-    let goals: Vec<_> = frontiers.iter().map(|f| settings.goal.representative.of(f, info)).collect();
+    let goals: Vec<_> = frontiers.iter().map(|f| settings.goal.representative.of(f, info, args.at.position())).collect();
     if let Some(file) = &args.overlay {
         let shown: Vec<OverlayFrontier<'_>> = frontiers
             .iter()
