@@ -51,7 +51,17 @@ pub struct NavigationSettings {
 }
 
 /// The presets in the binary, by name, as in `configs/`.
-const BUILT_IN: &[(&str, &str)] = &[("wfd", include_str!("../../configs/wfd.yaml"))];
+const BUILT_IN: &[(&str, &str)] = &[
+    ("wfd", include_str!("../../configs/wfd.yaml")),
+    ("yamauchi", include_str!("../../configs/yamauchi.yaml")),
+    ("liang", include_str!("../../configs/liang.yaml")),
+    ("liang_closest", include_str!("../../configs/liang_closest.yaml")),
+    ("liang_max_gain", include_str!("../../configs/liang_max_gain.yaml")),
+    ("alghfeli", include_str!("../../configs/alghfeli.yaml")),
+    ("northwestern", include_str!("../../configs/northwestern.yaml")),
+    ("explore_lite", include_str!("../../configs/explore_lite.yaml")),
+    ("mrtsp", include_str!("../../configs/mrtsp.yaml")),
+];
 
 impl Preset {
     /// The names of the built-in presets.

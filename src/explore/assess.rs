@@ -55,7 +55,9 @@ impl Surroundings<'_> {
             goal,
             size_cells: frontier.cells.len(),
             size_m,
+            radius_m: frontier.enclosing_circle(self.info).map_or(0.0, |circle| circle.radius_m),
             distance_m,
+            nearest_m: self.nearest_m(frontier),
             way_m: self.way_m(&goal),
         });
         let taboo = self.blacklist.check(target, self.now_s);
@@ -84,6 +86,10 @@ impl Surroundings<'_> {
             status,
         };
         Assessed { record, target, candidate, taboo }
+    }
+
+    fn nearest_m(&self, frontier: &Frontier) -> f64 {
+        frontier.cells.iter().map(|&cell| self.robot.distance_to(self.info.center(cell))).fold(f64::INFINITY, f64::min)
     }
 
     fn way_m(&self, goal: &Pose) -> f64 {

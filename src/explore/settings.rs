@@ -161,7 +161,7 @@ impl Default for ExplorerSettings {
         Self {
             thresholds: Thresholds::default(),
             detector: DetectorSettings::default(),
-            selection: SelectorConfig::Nearest,
+            selection: SelectorConfig::default(),
             planner: PlannerConfig::default(),
             goal: GoalSettings::default(),
             turns: TurnSettings::default(),
@@ -203,6 +203,7 @@ impl ExplorerSettings {
             OutOfRange::unless_not_negative(key, value)?;
         }
         self.planner.validate()?;
+        self.selection.validate()?;
         Ok(self.detector_params().validate()?)
     }
 

@@ -1,10 +1,21 @@
 //! Which frontier next (floor 1): one file for each strategy.
 
+mod explore_lite;
+mod joint_cost;
+mod max_gain;
+mod mrtsp;
 mod nearest;
+mod radius_distance;
 
-pub use nearest::Nearest;
+pub use explore_lite::{ExploreLite, ExploreLiteConfig};
+pub use joint_cost::{JointCost, JointCostConfig};
+pub use max_gain::MaxGain;
+pub use mrtsp::{EXACT_UP_TO, Mrtsp};
+pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
+pub use radius_distance::RadiusDistance;
 
 use crate::geometry::{Point, Pose};
+use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -19,8 +30,12 @@ pub struct Candidate {
     pub size_cells: usize,
     /// Cells times resolution, metres.
     pub size_m: f64,
+    /// Radius of the smallest circle around the frontier, metres.
+    pub radius_m: f64,
     /// Euclidean distance from the robot to the target, metres.
     pub distance_m: f64,
+    /// Euclidean distance from the robot to the nearest frontier cell, metres.
+    pub nearest_m: f64,
     /// Cost of the cheapest way to the goal, in metres of open space.
     pub way_m: f64,
 }
@@ -54,19 +69,65 @@ pub trait GoalSelector: Send {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum SelectorConfig {
-    /// The Euclidean nearest first (Topiwala 2018).
-    Nearest,
+    /// The nearest first (Topiwala 2018, Yamauchi 1997).
+    Nearest(NearestConfig),
+    /// The largest enclosing circle first (baseline of Liang 2020).
+    MaxGain {},
+    /// The largest radius for its distance first (Liang 2020).
+    RadiusDistance {},
+    /// Size and distance, scaled and weighted (Alghfeli).
+    JointCost(JointCostConfig),
+    /// explore_lite's cost.
+    ExploreLite(ExploreLiteConfig),
+    /// A tour over all frontiers (Scientific Reports 2025).
+    Mrtsp {},
+}
+
+impl Default for SelectorConfig {
+    fn default() -> Self {
+        Self::Nearest(NearestConfig::default())
+    }
 }
 
 impl SelectorConfig {
     /// All strategies with their default parameters, for tables of tests and help.
-    pub const ALL: &'static [Self] = &[Self::Nearest];
+    #[must_use]
+    pub fn all() -> [Self; 6] {
+        [
+            Self::default(),
+            Self::MaxGain {},
+            Self::RadiusDistance {},
+            Self::JointCost(JointCostConfig::default()),
+            Self::ExploreLite(ExploreLiteConfig::default()),
+            Self::Mrtsp {},
+        ]
+    }
+
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] that names the parameter.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        match self {
+            Self::JointCost(config) => config.validate(),
+            Self::ExploreLite(config) => config.validate(),
+            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Ok(()),
+        }
+    }
 
     /// A strategy with these parameters.
     #[must_use]
     pub fn build(&self) -> Box<dyn GoalSelector> {
-        match self {
-            Self::Nearest => Box::new(Nearest),
+        match *self {
+            Self::Nearest(config) => Box::new(Nearest(config)),
+            Self::MaxGain {} => Box::new(MaxGain),
+            Self::RadiusDistance {} => Box::new(RadiusDistance),
+            Self::JointCost(config) => Box::new(JointCost(config)),
+            Self::ExploreLite(config) => Box::new(ExploreLite(config)),
+            Self::Mrtsp {} => Box::new(Mrtsp),
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,13 +1,45 @@
-//! The nearest frontier first, by the straight line from the robot.
+//! The nearest frontier first.
 //!
 //! Topiwala, Inani and Kathpal 2018, section III: medians "arranged in the increasing
-//! order of the Euclidean distance from the current robot pose".
+//! order of the Euclidean distance from the current robot pose". Yamauchi 1997 goes to
+//! the nearest by the way that the planner finds.
 
 use super::{Candidate, GoalSelector, Score, SelectionContext};
+use serde::{Deserialize, Serialize};
+
+/// How nearness is measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DistanceMeasure {
+    /// By the straight line to the frontier.
+    #[default]
+    Euclidean,
+    /// By the cost of the cheapest way to the goal.
+    Path,
+}
+
+impl DistanceMeasure {
+    /// The distance of a candidate, metres.
+    #[must_use]
+    pub const fn of_m(self, candidate: &Candidate) -> f64 {
+        match self {
+            Self::Euclidean => candidate.distance_m,
+            Self::Path => candidate.way_m,
+        }
+    }
+}
+
+/// Parameters of the strategy.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NearestConfig {
+    /// How nearness is measured.
+    pub distance: DistanceMeasure,
+}
 
 /// The strategy.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Nearest;
+pub struct Nearest(pub NearestConfig);
 
 impl GoalSelector for Nearest {
     fn name(&self) -> &'static str {
@@ -15,6 +47,12 @@ impl GoalSelector for Nearest {
     }
 
     fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
-        candidates.iter().map(|c| Score { total: c.distance_m, parts: [("distance_m", c.distance_m)].into() }).collect()
+        candidates
+            .iter()
+            .map(|c| {
+                let distance_m = self.0.distance.of_m(c);
+                Score { total: distance_m, parts: [("distance_m", distance_m)].into() }
+            })
+            .collect()
     }
 }

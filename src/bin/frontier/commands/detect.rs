@@ -122,7 +122,8 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         .detect(&DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(&grid, args.at) })
         .with_context(|| args.map.display().to_string())?;
     let info = grid.info();
-    let goals: Vec<_> = frontiers.iter().map(|f| settings.goal.representative.of(f, info, args.at.position())).collect();
+    let goals: Vec<_> =
+        frontiers.iter().map(|f| settings.goal.representative.of(f, info, args.at.position())).collect();
     if let Some(file) = &args.overlay {
         let shown: Vec<OverlayFrontier<'_>> = frontiers
             .iter()

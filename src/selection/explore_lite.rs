@@ -1,0 +1,68 @@
+//! explore_lite's cost, with its parameter names (m-explore, `FrontierSearch`).
+//!
+//! cost = potential_scale * distance - gain_scale * size, both in metres, where the
+//! distance is that of the frontier's nearest cell. explore_lite multiplies that
+//! distance, which is in metres already, by the resolution once more, and so weighs it
+//! less than its parameter says (twenty times at 0.05 m); that is not copied. The
+//! `orientation_scale` of its launch files weighs the turn that the robot must make,
+//! radians; explore_lite reads it and does not use it.
+
+use super::{Candidate, GoalSelector, Score, SelectionContext};
+use crate::geometry::{Pose, shortest_angle};
+use crate::range::OutOfRange;
+use serde::{Deserialize, Serialize};
+
+/// Weights, with the values of explore_lite's launch file.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExploreLiteConfig {
+    /// Weight of the distance, per metre.
+    pub potential_scale: f64,
+    /// Weight of the turn, per radian.
+    pub orientation_scale: f64,
+    /// Weight of the size, per metre.
+    pub gain_scale: f64,
+}
+
+impl Default for ExploreLiteConfig {
+    fn default() -> Self {
+        Self { potential_scale: 3.0, orientation_scale: 0.0, gain_scale: 1.0 }
+    }
+}
+
+impl ExploreLiteConfig {
+    /// Checks the weights.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] for a weight below 0.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless_not_negative("selection.potential_scale", self.potential_scale)?;
+        OutOfRange::unless_not_negative("selection.orientation_scale", self.orientation_scale)?;
+        OutOfRange::unless_not_negative("selection.gain_scale", self.gain_scale)
+    }
+}
+
+/// The strategy.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ExploreLite(pub ExploreLiteConfig);
+
+impl GoalSelector for ExploreLite {
+    fn name(&self) -> &'static str {
+        "explore_lite"
+    }
+
+    fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score> {
+        let (config, robot) = (self.0, context.robot_in_map);
+        candidates
+            .iter()
+            .map(|c| {
+                let turn_rad = shortest_angle(robot.yaw, Pose::facing(robot.position(), c.target).yaw).abs();
+                let potential = config.potential_scale * c.nearest_m;
+                let orientation = config.orientation_scale * turn_rad;
+                let gain = config.gain_scale * c.size_m;
+                let parts = [("potential", potential), ("orientation", orientation), ("gain", gain)];
+                Score { total: potential + orientation - gain, parts: parts.into() }
+            })
+            .collect()
+    }
+}

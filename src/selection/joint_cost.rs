@@ -1,0 +1,61 @@
+//! Size and distance together: larger is cheaper, nearer is cheaper.
+//!
+//! Alghfeli, Alhosani and Almheiri, section III.A: "information gain gives less cost to
+//! larger clusters, while Euclidean distance gives less cost to closer centroids". The
+//! paper leaves the scaling open; both costs are scaled to 0..=1 over the candidates
+//! present and weighted.
+
+use super::{Candidate, GoalSelector, Score, SelectionContext};
+use crate::range::OutOfRange;
+use serde::{Deserialize, Serialize};
+
+/// Weights of the two costs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct JointCostConfig {
+    /// Weight of the cost of being small.
+    pub size_weight: f64,
+    /// Weight of the cost of being far.
+    pub distance_weight: f64,
+}
+
+impl Default for JointCostConfig {
+    fn default() -> Self {
+        Self { size_weight: 0.5, distance_weight: 0.5 }
+    }
+}
+
+impl JointCostConfig {
+    /// Checks the weights.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] for a weight below 0.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        OutOfRange::unless_not_negative("selection.size_weight", self.size_weight)?;
+        OutOfRange::unless_not_negative("selection.distance_weight", self.distance_weight)
+    }
+}
+
+/// The strategy.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct JointCost(pub JointCostConfig);
+
+impl GoalSelector for JointCost {
+    fn name(&self) -> &'static str {
+        "joint_cost"
+    }
+
+    fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
+        let largest = |value: fn(&Candidate) -> f64| candidates.iter().map(value).fold(f64::MIN_POSITIVE, f64::max);
+        let (largest_m, farthest_m) = (largest(|c| c.size_m), largest(|c| c.distance_m));
+        candidates
+            .iter()
+            .map(|c| {
+                let size_cost = 1.0 - c.size_m / largest_m;
+                let distance_cost = c.distance_m / farthest_m;
+                let total = self.0.size_weight * size_cost + self.0.distance_weight * distance_cost;
+                Score { total, parts: [("size_cost", size_cost), ("distance_cost", distance_cost)].into() }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,73 @@
+//! All strategies on one table of candidates.
+
+use super::*;
+
+/// Near and small, far and large, in between behind a detour.
+fn candidates() -> Vec<Candidate> {
+    let at = |x: f64, size_m: f64, radius_m: f64, way_m: f64| Candidate {
+        target: Point::new(x, 0.0),
+        goal: Pose::new(x, 0.0, 0.0),
+        size_cells: (size_m * 20.0) as usize,
+        size_m,
+        radius_m,
+        distance_m: x,
+        nearest_m: x,
+        way_m,
+    };
+    vec![at(1.0, 0.3, 0.15, 9.0), at(8.0, 6.0, 3.0, 8.0), at(3.0, 2.0, 1.2, 4.0)]
+}
+
+/// Indices from best to worst.
+fn order(config: SelectorConfig) -> Vec<usize> {
+    let context = SelectionContext { robot_in_map: Pose::default() };
+    let scores = config.build().score(&candidates(), &context);
+    let mut order: Vec<usize> = (0..scores.len()).collect();
+    order.sort_by(|&a, &b| scores[a].total.total_cmp(&scores[b].total));
+    order
+}
+
+#[test]
+fn each_strategy_has_its_own_order() {
+    let by_path = SelectorConfig::Nearest(NearestConfig { distance: DistanceMeasure::Path });
+    let by_size = SelectorConfig::JointCost(JointCostConfig { size_weight: 1.0, distance_weight: 0.2 });
+    let explore_lite = |potential_scale| {
+        SelectorConfig::ExploreLite(ExploreLiteConfig { potential_scale, ..ExploreLiteConfig::default() })
+    };
+    for (config, expected) in [
+        (SelectorConfig::default(), [0, 2, 1]),
+        (by_path, [2, 1, 0]),
+        (SelectorConfig::MaxGain {}, [1, 2, 0]),
+        // e = 0.15, 0.375, 0.4
+        (SelectorConfig::RadiusDistance {}, [2, 1, 0]),
+        (by_size, [1, 2, 0]),
+        (explore_lite(3.0), [0, 2, 1]),
+        (explore_lite(0.1), [1, 2, 0]),
+        // 4 / 2 + 2 / 0.3 + 7 / 6 = 9.8
+        (SelectorConfig::Mrtsp {}, [2, 0, 1]),
+    ] {
+        assert_eq!(order(config), expected, "{config:?}");
+    }
+}
+
+#[test]
+fn scores_are_finite_name_their_parts_and_come_one_for_each() {
+    let context = SelectionContext { robot_in_map: Pose::default() };
+    for config in SelectorConfig::all() {
+        let mut selector = config.build();
+        assert!(selector.score(&[], &context).is_empty());
+        let scores = selector.score(&candidates(), &context);
+        assert_eq!(scores.len(), 3);
+        assert!(scores.iter().all(|s| s.total.is_finite() && !s.parts.is_empty()), "{}", selector.name());
+        let yaml = serde_json::to_value(config).unwrap();
+        assert_eq!(yaml["name"], selector.name());
+    }
+}
+
+#[test]
+fn unknown_parameters_are_refused() {
+    for text in [r#"{"name": "max_gain", "x": 1}"#, r#"{"name": "nearest", "x": 1}"#, r#"{"name": "farthest"}"#] {
+        assert!(serde_json::from_str::<SelectorConfig>(text).is_err(), "{text}");
+    }
+    let negative = SelectorConfig::JointCost(JointCostConfig { size_weight: -1.0, distance_weight: 1.0 });
+    assert_eq!(negative.validate().unwrap_err().to_string(), "selection.size_weight is -1: must be finite and >= 0");
+}
