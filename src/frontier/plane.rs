@@ -66,10 +66,14 @@ impl Plane {
         self.info.index(cell).map_or(OUTSIDE, |_| self.states[self.position(cell)])
     }
 
-    /// The states row by row, without the margin.
-    pub(super) fn rows(&self) -> impl Iterator<Item = &[u8]> {
+    /// The states of all cells, row-major and without the margin.
+    pub(super) fn states(&self) -> Vec<u8> {
         let width = self.info.width();
-        self.states.chunks_exact(self.stride).skip(1).take(self.info.height()).map(move |row| &row[1..=width])
+        let mut states = Vec::with_capacity(self.info.len());
+        for row in self.states.chunks_exact(self.stride).skip(1).take(self.info.height()) {
+            states.extend_from_slice(&row[1..=width]);
+        }
+        states
     }
 
     /// The open cells beside an unknown one, row-major: the frontier cells of Yamauchi.
