@@ -23,12 +23,13 @@
 
 mod edges;
 
-use super::plane::{BEYOND, OPEN, Plane, UNKNOWN, group};
+use super::plane::{BEYOND, OPEN, Plane, UNKNOWN, group, set_cells};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
-use crate::grid::{Cell, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, Neighbourhood, UNKNOWN_COST};
+use crate::grid::{Cell, Costmap, INSCRIBED_COST, LETHAL_COST, Neighbourhood, UNKNOWN_COST};
 use crate::range::OutOfRange;
 use edges::Blurred;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Grey values of the picture.
 const WHITE: u8 = 255;
@@ -116,19 +117,19 @@ impl FrontierDetector for Canny {
 /// know blocks nothing, and neither does what lies outside it.
 fn draw(plane: &Plane, costmap: Option<&Costmap>, blocked_cost_min: u8) -> Vec<u8> {
     let info = plane.info();
-    let cost = |index: usize| match costmap {
-        Some(costmap) if costmap.info() == info => costmap.costs().get(index).copied().unwrap_or(UNKNOWN_COST),
-        Some(costmap) => costmap.cost_at(info.center(info.cell(index))),
-        None => UNKNOWN_COST,
-    };
-    let is_blocked = |index| (blocked_cost_min..UNKNOWN_COST).contains(&cost(index));
-    let grey = |(index, &state): (usize, &u8)| match state {
-        OPEN | BEYOND | UNKNOWN if is_blocked(index) => BLACK,
+    let is_blocked = |cost: u8| (blocked_cost_min..UNKNOWN_COST).contains(&cost);
+    let grey = |(&state, &cost): (&u8, &u8)| match state {
+        OPEN | BEYOND | UNKNOWN if is_blocked(cost) => BLACK,
         OPEN | BEYOND => WHITE,
         UNKNOWN => GREY,
         _ => BLACK,
     };
-    plane.states().iter().enumerate().map(grey).collect()
+    let costs: Cow<'_, [u8]> = match costmap {
+        Some(costmap) if costmap.info() == info => costmap.costs().into(),
+        Some(costmap) => (0..info.len()).map(|index| costmap.cost_at(info.center(info.cell(index)))).collect(),
+        None => vec![UNKNOWN_COST; info.len()].into(),
+    };
+    plane.states().iter().zip(&*costs).map(grey).collect()
 }
 
 /// The cells that have both an open and an unknown cell among them and their
@@ -141,8 +142,8 @@ fn between(plane: &Plane, picture: &[u8], neighbours: Neighbourhood) -> Vec<Cell
     let unknown: Vec<bool> = picture.iter().map(|&grey| grey == GREY).collect();
     let beside_open = with_neighbours(&open, info.width(), neighbours);
     let beside_unknown = with_neighbours(&unknown, info.width(), neighbours);
-    let both = beside_open.iter().zip(&beside_unknown).enumerate().filter(|(_, (open, unknown))| **open && **unknown);
-    both.map(|(index, _)| info.cell(index)).collect()
+    let both: Vec<bool> = beside_open.iter().zip(&beside_unknown).map(|(&open, &unknown)| open & unknown).collect();
+    set_cells(info, &both)
 }
 
 /// A mask with rows of `width`, together with the neighbours of its cells.
@@ -167,7 +168,7 @@ fn with_neighbours(mask: &[bool], width: usize, neighbours: Neighbourhood) -> Ve
 mod tests {
     use super::*;
     use crate::geometry::Pose;
-    use crate::grid::{Inflation, OccupancyGrid, Thresholds};
+    use crate::grid::{GridInfo, Inflation, OccupancyGrid, Thresholds};
 
     /// A room of 20 x 20 cells of 0.1 m with an open right side, in the unknown.
     fn room() -> OccupancyGrid {

@@ -19,7 +19,7 @@
 //! [`Reachability::WallsBlock`](super::Reachability) only steps at free cells
 //! connected to the robot's count; obstacles are not widened for that connection.
 
-use super::plane::{OCCUPIED, OPEN, Plane, UNKNOWN, group};
+use super::plane::{OCCUPIED, OPEN, Plane, UNKNOWN, group, set_cells};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, order};
 use crate::geometry::{Circle, Point};
 use crate::grid::{Cell, GridInfo};
@@ -88,8 +88,7 @@ impl FrontierDetector for ImageDetector {
         let is_point = frontier_points(&plane, &obstacles);
         let mut dilated = is_point.clone();
         dilate(&mut dilated, info.width(), half);
-        let set = dilated.iter().enumerate().filter(|(_, set)| **set);
-        let cells: Vec<Cell> = set.map(|(index, _)| info.cell(index)).collect();
+        let cells = set_cells(&info, &dilated);
         let min_cells = self.params.min_cells(&info);
         let frontiers = group(&info, &cells, self.params.neighbours).into_iter().map(|component| {
             let circle = enclosing_circle(&info, &component);

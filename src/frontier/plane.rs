@@ -141,6 +141,21 @@ impl Plane {
     }
 }
 
+/// The cells that a row-major mask has set, in that order.
+pub(super) fn set_cells(info: &GridInfo, mask: &[bool]) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for (y, row) in (0..).zip(mask.chunks_exact(info.width())) {
+        // Most stretches of most maps have nothing set.
+        for (x, stretch) in (0..).step_by(64).zip(row.chunks(64)) {
+            if stretch.contains(&true) {
+                let set = (x..).zip(stretch).filter(|(_, set)| **set);
+                cells.extend(set.map(|(x, _)| Cell::new(x, y)));
+            }
+        }
+    }
+    cells
+}
+
 /// Groups cells by adjacency. Cells outside the grid are left out; the groups come in
 /// the order of their first cells in the list. O(cells).
 pub(super) fn group(info: &GridInfo, cells: &[Cell], neighbours: Neighbourhood) -> Vec<Vec<Cell>> {
