@@ -2,8 +2,8 @@
 //!
 //! The winter project of Northwestern University: the map is overlaid with the costmap,
 //! so that its static and inflation layers count as blocked, and drawn with free cells
-//! white, unknown ones grey and blocked ones black; of the Canny edges (Canny 1986, as
-//! `imageproc` has it, with a Gaussian of 1.4 cells) those are kept that lie between the
+//! white, unknown ones grey and blocked ones black; of the Canny edges (Canny 1986, with
+//! a Gaussian of 1.4 cells) those are kept that lie between the
 //! free and the unknown; adjacent ones form a frontier, whose centroid is the goal.
 //! O(cells of the grid); without a costmap the map alone is drawn.
 //!
@@ -13,19 +13,23 @@
 //! | `blocked_cost_min` | cost, 1..=254 | not said |
 //! | `neighbours` | which cells are "beside" and "adjacent" | not said |
 //!
-//! A straight border between free and unknown has a gradient of about 270, so the
+//! An edge goes on along these alone, not by way of a wall. A straight border between
+//! free and unknown has a gradient of about 265, so the
 //! defaults find it and leave out single grey cells. The cells of a frontier lie on
 //! either side of the boundary. Cells on the rim of the grid have no edge: a map that is
 //! known up to its rim has no frontier there. Frontiers of a cell or two vanish in the
 //! blur. Where white, grey and black meet, Canny leaves gaps, and bits of two or three
 //! cells beside a wall are frontiers of their own: `min_size_m` drops them.
 
-use super::plane::{BEYOND, OPEN, Plane, UNKNOWN, group};
+mod edges;
+
+use super::plane::{BEYOND, OPEN, Plane, UNKNOWN, group, set_cells};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
-use crate::grid::{Cell, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, UNKNOWN_COST};
+use crate::grid::{Cell, Costmap, INSCRIBED_COST, LETHAL_COST, Neighbourhood, UNKNOWN_COST};
 use crate::range::OutOfRange;
-use image::GrayImage;
+use edges::Blurred;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Grey values of the picture.
 const WHITE: u8 = 255;
@@ -98,17 +102,10 @@ impl FrontierDetector for Canny {
         let plane = Plane::of(input, &self.params)?;
         let info = *plane.info();
         let params = &self.params.canny;
-        let blocked = |cell| input.costmap.is_some_and(|costmap| is_blocked(costmap, &info, cell, params));
-        let picture = draw(&plane, &blocked);
-        let edges = imageproc::edges::canny(&picture, params.low_threshold, params.high_threshold);
-        let between = |cell: Cell| {
-            let around = || info.neighbours(cell, self.params.neighbours).chain([cell]);
-            let shows = |grey: u8| around().any(|c| info.index(c).is_some_and(|i| picture.as_raw()[i] == grey));
-            // White is drawn also where the robot cannot get to.
-            shows(GREY) && shows(WHITE) && around().any(|c| plane.state(c) == OPEN && !blocked(c))
-        };
-        let on_edge = edges.as_raw().iter().enumerate().filter(|(_, pixel)| **pixel != 0);
-        let cells: Vec<Cell> = on_edge.map(|(index, _)| info.cell(index)).filter(|&cell| between(cell)).collect();
+        let picture = draw(&plane, input.costmap, params.blocked_cost_min);
+        let cells = between(&plane, &picture, self.params.neighbours);
+        let (low, high) = (f64::from(params.low_threshold), f64::from(params.high_threshold));
+        let cells = Blurred::new(&info, &picture, &cells).edges(&cells, low, high);
         let mut frontiers = group(&info, &cells, self.params.neighbours);
         let min_cells = self.params.min_cells(&info);
         frontiers.retain(|cells| cells.len() >= min_cells);
@@ -116,34 +113,62 @@ impl FrontierDetector for Canny {
     }
 }
 
-/// Whether the costmap blocks a cell of the map. What it does not know blocks nothing,
-/// and neither does what lies outside it.
-fn is_blocked(costmap: &Costmap, info: &GridInfo, cell: Cell, params: &CannyParams) -> bool {
-    let cost = if costmap.info() == info { costmap.cost(cell) } else { costmap.cost_at(info.center(cell)) };
-    cost != UNKNOWN_COST && cost >= params.blocked_cost_min
+/// The picture, row 0 of the grid first: edges do not mind. What the costmap does not
+/// know blocks nothing, and neither does what lies outside it.
+fn draw(plane: &Plane, costmap: Option<&Costmap>, blocked_cost_min: u8) -> Vec<u8> {
+    let info = plane.info();
+    let is_blocked = |cost: u8| (blocked_cost_min..UNKNOWN_COST).contains(&cost);
+    let grey = |(&state, &cost): (&u8, &u8)| match state {
+        OPEN | BEYOND | UNKNOWN if is_blocked(cost) => BLACK,
+        OPEN | BEYOND => WHITE,
+        UNKNOWN => GREY,
+        _ => BLACK,
+    };
+    let costs: Cow<'_, [u8]> = match costmap {
+        Some(costmap) if costmap.info() == info => costmap.costs().into(),
+        Some(costmap) => (0..info.len()).map(|index| costmap.cost_at(info.center(info.cell(index)))).collect(),
+        None => vec![UNKNOWN_COST; info.len()].into(),
+    };
+    plane.states().iter().zip(&*costs).map(grey).collect()
 }
 
-/// The picture, row 0 of the grid first: edges do not mind.
-fn draw(plane: &Plane, blocked: impl Fn(Cell) -> bool) -> GrayImage {
+/// The cells that have both an open and an unknown cell among them and their
+/// neighbours, row-major.
+fn between(plane: &Plane, picture: &[u8], neighbours: Neighbourhood) -> Vec<Cell> {
     let info = plane.info();
-    let mut picture = GrayImage::new(info.width() as u32, info.height() as u32);
-    let states = plane.rows().flatten().enumerate();
-    for (pixel, (index, &state)) in picture.iter_mut().zip(states) {
-        *pixel = match state {
-            _ if blocked(info.cell(index)) => BLACK,
-            OPEN | BEYOND => WHITE,
-            UNKNOWN => GREY,
-            _ => BLACK,
-        };
+    // White is drawn also where the robot cannot get to.
+    let states = plane.states();
+    let open: Vec<bool> = states.iter().zip(picture).map(|(&state, &grey)| (state == OPEN) & (grey == WHITE)).collect();
+    let unknown: Vec<bool> = picture.iter().map(|&grey| grey == GREY).collect();
+    let beside_open = with_neighbours(&open, info.width(), neighbours);
+    let beside_unknown = with_neighbours(&unknown, info.width(), neighbours);
+    let both: Vec<bool> = beside_open.iter().zip(&beside_unknown).map(|(&open, &unknown)| open & unknown).collect();
+    set_cells(info, &both)
+}
+
+/// A mask with rows of `width`, together with the neighbours of its cells.
+fn with_neighbours(mask: &[bool], width: usize, neighbours: Neighbourhood) -> Vec<bool> {
+    let mut out = mask.to_vec();
+    for &(dx, dy) in neighbours.offsets() {
+        // Whole rows at a time: `to` gets what `from` has at the offset.
+        let (to_row, from_row) = if dy > 0 { (0, 1) } else { (usize::from(dy < 0), 0) };
+        let (to, from) = if dx > 0 { (0, 1) } else { (usize::from(dx < 0), 0) };
+        let rows = out.chunks_exact_mut(width).skip(to_row).zip(mask.chunks_exact(width).skip(from_row));
+        for (out, row) in rows {
+            let (out, row) = (out.get_mut(to..).unwrap_or_default(), row.get(from..).unwrap_or_default());
+            for (out, &set) in out.iter_mut().zip(row) {
+                *out |= set;
+            }
+        }
     }
-    picture
+    out
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::Pose;
-    use crate::grid::{Inflation, OccupancyGrid, Thresholds};
+    use crate::grid::{GridInfo, Inflation, OccupancyGrid, Thresholds};
 
     /// A room of 20 x 20 cells of 0.1 m with an open right side, in the unknown.
     fn room() -> OccupancyGrid {
@@ -192,6 +217,16 @@ mod tests {
         let elsewhere = GridInfo::new(4, 4, 0.05, Pose::new(50.0, 50.0, 0.3)).unwrap();
         let costmap = Costmap::from_costs(elsewhere, vec![LETHAL_COST; 16]).unwrap();
         assert_eq!(detect(&grid, Some(&costmap)), detect(&grid, None));
+    }
+
+    #[test]
+    fn neighbours_of_a_mask_stay_in_their_rows() {
+        let mask = [[false, false, true], [false; 3], [true, false, false]].concat();
+        let drawn = |neighbours| -> String {
+            with_neighbours(&mask, 3, neighbours).iter().map(|&set| if set { '#' } else { '.' }).collect()
+        };
+        assert_eq!(drawn(Neighbourhood::Four), ".## #.# ##.".replace(' ', ""));
+        assert_eq!(drawn(Neighbourhood::Eight), ".## ### ##.".replace(' ', ""));
     }
 
     #[test]

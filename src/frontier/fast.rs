@@ -34,7 +34,7 @@
 
 mod contour;
 
-use super::plane::{OPEN, Plane, group};
+use super::plane::{OPEN, Plane, group, set_cells};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability, number};
 use crate::grid::{Cell, CellState, GridInfo, NEIGHBOURS_8, OccupancyGrid};
 use contour::contour;
@@ -150,8 +150,7 @@ impl FrontierDetector for Fast {
         self.params.seed(input.grid, &input.robot_in_map)?;
         let known = self.look(input);
         let info = known.info;
-        let set = known.is_frontier.iter().enumerate().filter(|(_, is_frontier)| **is_frontier);
-        let mut cells: Vec<Cell> = set.map(|(index, _)| info.cell(index)).collect();
+        let mut cells = set_cells(&info, &known.is_frontier);
         self.known = Some(known);
         if self.params.reachability == Reachability::WallsBlock {
             let plane = Plane::of(input, &self.params)?;

@@ -19,19 +19,14 @@
 //! [`Reachability::WallsBlock`](super::Reachability) only steps at free cells
 //! connected to the robot's count; obstacles are not widened for that connection.
 
-use super::plane::{OCCUPIED, OPEN, Plane, UNKNOWN, group};
+use super::plane::{OCCUPIED, OPEN, Plane, UNKNOWN, group, set_cells};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, order};
 use crate::geometry::{Circle, Point};
 use crate::grid::{Cell, GridInfo};
 use crate::range::OutOfRange;
-use image::{GrayImage, Luma};
-use imageproc::distance_transform::Norm;
-use imageproc::morphology::dilate_mut;
 use serde::{Deserialize, Serialize};
 
-/// Set in a mask.
-const SET: u8 = 255;
-/// Half of B in cells where the resolution would ask for more: what imageproc holds.
+/// Half of B in cells, where the resolution would ask for more: what a byte counts.
 const MAX_HALF_CELLS: f64 = 254.0;
 
 /// Parameters of the image processing.
@@ -88,16 +83,12 @@ impl FrontierDetector for ImageDetector {
         let info = *plane.info();
         let half = self.params.image.half_cells(&info);
         // Eroding S is dilating its complement, the obstacles.
-        let mut obstacles = mask(&info, plane.rows().flat_map(|row| row.iter().map(|&s| s == OCCUPIED)));
-        dilate(&mut obstacles, half);
-        let points = frontier_points(&plane, &obstacles);
-        let mut is_point = vec![false; info.len()];
-        for index in points.iter().filter_map(|&p| info.index(p)) {
-            is_point[index] = true;
-        }
-        let mut dilated = mask(&info, is_point.iter().copied());
-        dilate(&mut dilated, half);
-        let cells: Vec<Cell> = set_cells(&info, &dilated);
+        let mut obstacles: Vec<bool> = plane.states().iter().map(|&state| state == OCCUPIED).collect();
+        dilate(&mut obstacles, info.width(), half);
+        let is_point = frontier_points(&plane, &obstacles);
+        let mut dilated = is_point.clone();
+        dilate(&mut dilated, info.width(), half);
+        let cells = set_cells(&info, &dilated);
         let min_cells = self.params.min_cells(&info);
         let frontiers = group(&info, &cells, self.params.neighbours).into_iter().map(|component| {
             let circle = enclosing_circle(&info, &component);
@@ -109,50 +100,60 @@ impl FrontierDetector for ImageDetector {
     }
 }
 
-/// Eq. 5: the cells with a step between open and unknown to the left or below.
-fn frontier_points(plane: &Plane, obstacles: &GrayImage) -> Vec<Cell> {
+/// Eq. 5: whether there is a step between open and unknown to the left of or below each
+/// cell, row-major.
+fn frontier_points(plane: &Plane, obstacles: &[bool]) -> Vec<bool> {
     let width = plane.info().width();
-    let states = |(row, wide): (&[u8], &[u8])| -> Vec<u8> {
-        row.iter().zip(wide).map(|(&state, &blocked)| if blocked == SET { OCCUPIED } else { state }).collect()
-    };
-    let is_step = |a: u8, b: u8| (a == OPEN && b == UNKNOWN) || (a == UNKNOWN && b == OPEN);
-    let mut points = Vec::new();
-    let mut below: Vec<u8> = Vec::new();
-    for (row, y) in plane.rows().zip(obstacles.as_raw().chunks_exact(width)).map(states).zip(0..) {
-        let mut left = OCCUPIED;
-        for (x, &here) in row.iter().enumerate() {
-            if is_step(left, here) || below.get(x).is_some_and(|&lower| is_step(lower, here)) {
-                points.push(Cell::new(x as i32, y));
-            }
-            left = here;
+    let widened = |(&state, &blocked): (&u8, &bool)| if blocked { OCCUPIED } else { state };
+    let m_e: Vec<u8> = plane.states().iter().zip(obstacles).map(widened).collect();
+    let is_step = |a: u8, b: u8| ((a == OPEN) & (b == UNKNOWN)) | ((a == UNKNOWN) & (b == OPEN));
+    let mut points = vec![false; m_e.len()];
+    for (points, row) in points.chunks_exact_mut(width).zip(m_e.chunks_exact(width)) {
+        let right = row.get(1..).unwrap_or_default();
+        for ((point, &left), &here) in points.get_mut(1..).unwrap_or_default().iter_mut().zip(row).zip(right) {
+            *point = is_step(left, here);
         }
-        below = row;
+    }
+    let above = points.get_mut(width..).unwrap_or_default().iter_mut();
+    for ((point, &here), &below) in above.zip(m_e.get(width..).unwrap_or_default()).zip(&m_e) {
+        *point |= is_step(below, here);
     }
     points
 }
 
-/// A picture of the grid, row 0 first: the operations used here do not mind that a
-/// viewer would show it upside down.
-fn mask(info: &GridInfo, is_set: impl Iterator<Item = bool>) -> GrayImage {
-    let mut image = GrayImage::new(info.width() as u32, info.height() as u32);
-    for (pixel, set) in image.pixels_mut().zip(is_set) {
-        *pixel = Luma([if set { SET } else { 0 }]);
+/// Dilates a mask with rows of `width` with a square that reaches `half` cells to each
+/// side, along the rows and then along the columns.
+fn dilate(mask: &mut [bool], width: usize, half: u8) {
+    let reach = usize::from(half);
+    let mut row_before = vec![false; width];
+    for row in mask.chunks_exact_mut(width) {
+        row_before.copy_from_slice(row);
+        let mut done = 0;
+        for (x, _) in row_before.iter().enumerate().filter(|(_, set)| **set) {
+            let end = (x + reach + 1).min(width);
+            row[x.saturating_sub(reach).max(done)..end].fill(true);
+            done = end;
+        }
     }
-    image
+    // For how many more rows each column stays set, upwards and then downwards; what
+    // was set on the way up is no source on the way down.
+    let mut down = mask.to_vec();
+    spread(mask.chunks_exact_mut(width), width, half);
+    spread(down.chunks_exact_mut(width).rev(), width, half);
+    for (cell, &from_above) in mask.iter_mut().zip(&down) {
+        *cell |= from_above;
+    }
 }
 
-/// Dilates with a square that reaches `half` cells to each side.
-fn dilate(mask: &mut GrayImage, half: u8) {
-    // Where nothing is set imageproc takes width + height for the distance, and a small
-    // picture comes out full.
-    if half > 0 && mask.as_raw().contains(&SET) {
-        dilate_mut(mask, Norm::LInf, half);
+/// Sets each cell that comes at most `half` rows after a set one.
+fn spread<'a>(rows: impl Iterator<Item = &'a mut [bool]>, width: usize, half: u8) {
+    let mut left = vec![0u8; width];
+    for row in rows {
+        for (cell, left) in row.iter_mut().zip(&mut left) {
+            *left = if *cell { half + 1 } else { left.saturating_sub(1) };
+            *cell = *left > 0;
+        }
     }
-}
-
-fn set_cells(info: &GridInfo, mask: &GrayImage) -> Vec<Cell> {
-    let set = mask.as_raw().iter().enumerate().filter(|(_, pixel)| **pixel == SET);
-    set.map(|(index, _)| info.cell(index)).collect()
 }
 
 /// The minimum enclosing circle of the cells' centres, in the map frame.

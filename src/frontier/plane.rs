@@ -66,10 +66,14 @@ impl Plane {
         self.info.index(cell).map_or(OUTSIDE, |_| self.states[self.position(cell)])
     }
 
-    /// The states row by row, without the margin.
-    pub(super) fn rows(&self) -> impl Iterator<Item = &[u8]> {
+    /// The states of all cells, row-major and without the margin.
+    pub(super) fn states(&self) -> Vec<u8> {
         let width = self.info.width();
-        self.states.chunks_exact(self.stride).skip(1).take(self.info.height()).map(move |row| &row[1..=width])
+        let mut states = Vec::with_capacity(self.info.len());
+        for row in self.states.chunks_exact(self.stride).skip(1).take(self.info.height()) {
+            states.extend_from_slice(&row[1..=width]);
+        }
+        states
     }
 
     /// The open cells beside an unknown one, row-major: the frontier cells of Yamauchi.
@@ -135,6 +139,21 @@ impl Plane {
     const fn position(&self, cell: Cell) -> usize {
         (cell.y as usize + 1) * self.stride + cell.x as usize + 1
     }
+}
+
+/// The cells that a row-major mask has set, in that order.
+pub(super) fn set_cells(info: &GridInfo, mask: &[bool]) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for (y, row) in (0..).zip(mask.chunks_exact(info.width())) {
+        // Most stretches of most maps have nothing set.
+        for (x, stretch) in (0..).step_by(64).zip(row.chunks(64)) {
+            if stretch.contains(&true) {
+                let set = (x..).zip(stretch).filter(|(_, set)| **set);
+                cells.extend(set.map(|(x, _)| Cell::new(x, y)));
+            }
+        }
+    }
+    cells
 }
 
 /// Groups cells by adjacency. Cells outside the grid are left out; the groups come in
