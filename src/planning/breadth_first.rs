@@ -3,24 +3,47 @@
 //! B. Yamauchi, "A Frontier-Based Approach for Autonomous Exploration" (CIRA 1997):
 //! the planner knows obstacles and free cells and no costs between them. A step to any
 //! of the eight neighbours counts 1, as a cell is what the paper's grid knows of
-//! length, and no corner is cut. The path's cost is its number of steps. No
-//! parameters. O(cells). Limit: the way may pass an obstacle as near as the inscribed
-//! radius, and a diagonal step is longer in metres than it counts.
+//! length, and no corner is cut. The path's cost is its number of steps. The paper makes sure that the
+//! space around the way is free: a way over cells that cost at most `max_cost` is
+//! preferred to one that passes obstacles more closely. O(cells). Limit: a diagonal step
+//! is longer in metres than it counts.
 
 use super::endpoints::{goal_index, path_along, start_index};
 use super::lattice::Lattice;
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::Pose;
-use crate::grid::Costmap;
+use crate::grid::{Costmap, INSCRIBED_COST};
+use serde::{Deserialize, Serialize};
 
 /// Entry of a cell that the search has not reached.
 const NOT_REACHED: u8 = 0xff;
 /// Entry of the cell where it began.
 const START: u8 = 0xfe;
 
+/// Parameters of the planner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BreadthFirstConfig {
+    /// The cost up to which a cell leaves room enough beside the way; from 252 on all
+    /// passable cells do.
+    pub max_cost: u8,
+}
+
+impl BreadthFirstConfig {
+    /// All passable cells.
+    pub const DEFAULT: Self = Self { max_cost: INSCRIBED_COST - 1 };
+}
+
+impl Default for BreadthFirstConfig {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
 /// The planner; it keeps its memory between plans.
 #[derive(Clone, Debug, Default)]
 pub struct BreadthFirst {
+    config: BreadthFirstConfig,
     /// In which direction each cell was entered.
     came_by: Vec<u8>,
     /// The cells in the order in which they were reached.
@@ -28,9 +51,15 @@ pub struct BreadthFirst {
 }
 
 impl BreadthFirst {
-    /// Whether the flood from `start` comes to `goal`.
-    fn flood(&mut self, lattice: &Lattice<'_>, start: usize, goal: usize) -> bool {
-        let Self { came_by, reached } = self;
+    /// A planner with these parameters.
+    #[must_use]
+    pub fn new(config: BreadthFirstConfig) -> Self {
+        Self { config, ..Self::default() }
+    }
+
+    /// Whether the flood from `start` over cells with room comes to `goal`.
+    fn flood(&mut self, lattice: &Lattice<'_>, start: usize, goal: usize, has_room: impl Fn(usize) -> bool) -> bool {
+        let Self { came_by, reached, .. } = self;
         came_by.clear();
         came_by.resize(lattice.len(), NOT_REACHED);
         reached.clear();
@@ -43,7 +72,7 @@ impl BreadthFirst {
             }
             next += 1;
             lattice.for_each_step(here as usize, |step| {
-                if came_by[step.to] == NOT_REACHED {
+                if came_by[step.to] == NOT_REACHED && (step.to == goal || has_room(step.to)) {
                     came_by[step.to] = step.direction;
                     reached.push(step.to as u32);
                 }
@@ -74,7 +103,9 @@ impl GlobalPlanner for BreadthFirst {
         let start = start_index(costmap, start_in_map)?;
         let goal = goal_index(costmap, goal_in_map)?;
         let lattice = Lattice::new(costmap);
-        if !self.flood(&lattice, start, goal) {
+        let (costs, max_cost) = (costmap.costs(), self.config.max_cost);
+        let roomy = self.flood(&lattice, start, goal, |cell| costs[cell] <= max_cost);
+        if !roomy && !self.flood(&lattice, start, goal, |_| true) {
             return Err(PlanError::no_path(goal_in_map.position()));
         }
         let way = self.way(&lattice, goal);

@@ -14,7 +14,7 @@ mod search;
 mod swept;
 
 pub use astar::Astar;
-pub use breadth_first::BreadthFirst;
+pub use breadth_first::{BreadthFirst, BreadthFirstConfig};
 pub use d_star_lite::DStarLite;
 pub use dijkstra::Dijkstra;
 pub use endpoints::{ESCAPE_RADIUS_M, flood};
@@ -105,7 +105,7 @@ pub trait GlobalPlanner: Send {
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PlannerConfig {
     /// The fewest cells, all passable ones alike (Yamauchi 1997).
-    BreadthFirst {},
+    BreadthFirst(BreadthFirstConfig),
     /// The cheapest way over the costmap's costs, as navfn finds it.
     Dijkstra {},
     /// The same way, found with a heuristic.
@@ -125,7 +125,7 @@ impl Default for PlannerConfig {
 impl PlannerConfig {
     /// All planners with their default parameters, for tables of tests and help.
     pub const ALL: &'static [Self] = &[
-        Self::BreadthFirst {},
+        Self::BreadthFirst(BreadthFirstConfig::DEFAULT),
         Self::Dijkstra {},
         Self::Astar {},
         Self::DStarLite {},
@@ -138,7 +138,7 @@ impl PlannerConfig {
     /// [`OutOfRange`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), OutOfRange> {
         match self {
-            Self::BreadthFirst {} | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Ok(()),
+            Self::BreadthFirst(_) | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Ok(()),
             Self::HybridAstar(config) => config.validate(),
         }
     }
@@ -147,7 +147,7 @@ impl PlannerConfig {
     #[must_use]
     pub fn build(&self, body: &Body) -> Box<dyn GlobalPlanner> {
         match self {
-            Self::BreadthFirst {} => Box::new(BreadthFirst::default()),
+            Self::BreadthFirst(config) => Box::new(BreadthFirst::new(*config)),
             Self::Dijkstra {} => Box::new(Dijkstra::default()),
             Self::Astar {} => Box::new(Astar::default()),
             Self::DStarLite {} => Box::new(DStarLite::default()),
