@@ -1,9 +1,12 @@
 //! Frontiers and the detectors that find them (floor 1): one file for each detector.
 
+mod bitplane;
 mod params;
 mod representative;
+mod runs;
 mod wavefront;
 
+pub use bitplane::Bitplane;
 pub use params::{DetectorParams, DetectorParamsError, Reachability};
 pub use representative::Representative;
 pub use wavefront::Wavefront;
@@ -113,19 +116,22 @@ pub trait FrontierDetector: Send {
 #[serde(rename_all = "snake_case")]
 pub enum DetectorKind {
     /// The textbook Wavefront Frontier Detector.
-    #[default]
     Wavefront,
+    /// The same frontiers from bit planes, at the speed of memory.
+    #[default]
+    Bitplane,
 }
 
 impl DetectorKind {
     /// All detectors, for tables of tests, help and benchmarks.
-    pub const ALL: &'static [Self] = &[Self::Wavefront];
+    pub const ALL: &'static [Self] = &[Self::Wavefront, Self::Bitplane];
 
     /// Its name in configuration files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Wavefront => "wavefront",
+            Self::Bitplane => "bitplane",
         }
     }
 
@@ -134,6 +140,7 @@ impl DetectorKind {
     pub fn build(self, params: &DetectorParams) -> Box<dyn FrontierDetector> {
         match self {
             Self::Wavefront => Box::new(Wavefront::new(*params)),
+            Self::Bitplane => Box::new(Bitplane::new(*params)),
         }
     }
 }
