@@ -2,19 +2,27 @@
 //!
 //! The same question as [`Wavefront`](super::Wavefront) asks, answered without a search
 //! from cell to cell. The grid is packed into one bit a cell; the neighbours of 64 cells
-//! at once are a few shifts; what is connected is found by union-find over the runs of
-//! rows (see [`runs`](super::runs)). Run-based labelling of frontiers follows He, Chao
-//! and Suzuki (2008); the frontier as a bit expression is the definition of Topiwala,
-//! Inani and Kathpal (2018) written for words. The result is the textbook's to the cell,
-//! in the same order.
+//! at once are a few shifts; what is connected is found by union-find over runs of cells
+//! in rows, after He, Chao and Suzuki (2008). The frontier as an expression of bits is
+//! the definition of Topiwala, Inani and Kathpal (2018) written for words. The result is
+//! the textbook's to the cell, in the same order.
 //!
 //! O(cells) with a small constant for packing, plus O(runs). The whole grid is read,
 //! also where nothing is known. Nothing but the result is allocated while the size of
-//! the map stays the same.
+//! the map stays the same and its runs do not become more.
 
+use super::flood::Flood;
 use super::runs::Runs;
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{BitPlane, BitPlanes, Cell, Neighbourhood};
+
+/// A fill may take one run for so many words of a plane, about as long as a copy of
+/// the plane takes.
+const WORDS_PER_FILLED_RUN: usize = 32;
+/// A fill may take this many runs in any case.
+const MIN_FILLED_RUNS: usize = 64;
+/// The place in the result of a component that is not in it.
+const DROPPED: usize = usize::MAX;
 
 /// The detector, with the buffers it keeps between maps.
 #[derive(Clone, Debug)]
@@ -25,6 +33,7 @@ pub struct Bitplane {
     entered: BitPlane,
     frontier: BitPlane,
     runs: Runs,
+    flood: Flood,
     row: RowBuffers,
     /// Of each component of the frontier, by its first run: the number of its cells.
     component_cells: Vec<usize>,
@@ -40,6 +49,7 @@ impl Bitplane {
             entered: BitPlane::default(),
             frontier: BitPlane::default(),
             runs: Runs::default(),
+            flood: Flood::default(),
             row: RowBuffers::default(),
             component_cells: Vec::new(),
         }
@@ -63,10 +73,18 @@ impl Bitplane {
         self.frontier.intersect(self.planes.unknown());
     }
 
-    /// Clears what is not connected to the seed.
+    /// Clears among the entered cells what is not connected to the seed: by a fill as
+    /// long as that costs little beside reading the planes, else by labelling all runs.
     fn keep_connected(&mut self, seed: Cell, neighbourhood: Neighbourhood) {
-        self.runs.label(&self.entered, neighbourhood);
-        self.runs.clear_others(&mut self.entered, self.runs.component_at(seed));
+        let max_runs = self.entered.words().len() / WORDS_PER_FILLED_RUN + MIN_FILLED_RUNS;
+        let unconnected = &mut self.frontier;
+        unconnected.copy_from(&self.entered);
+        if self.flood.clear_connected(unconnected, seed, neighbourhood, max_runs).is_some() {
+            self.entered.subtract(unconnected);
+        } else {
+            self.runs.label(&self.entered, neighbourhood);
+            self.runs.clear_others(&mut self.entered, self.runs.component_at(seed));
+        }
     }
 
     /// The components of the frontier that are large enough. Runs come in row-major
@@ -75,9 +93,8 @@ impl Bitplane {
         self.runs.label(&self.frontier, self.params.neighbours);
         self.component_cells.clear();
         self.component_cells.resize(self.runs.len(), 0);
-        for (_, run, component) in self.runs.iter() {
-            self.component_cells[component as usize] += run.len();
-        }
+        let component_cells = &mut self.component_cells;
+        self.runs.iter().for_each(|(_, run, component)| component_cells[component as usize] += run.len());
         let mut frontiers: Vec<Frontier> = Vec::new();
         for (index, (y, run, component)) in self.runs.iter().enumerate() {
             let component = component as usize;
@@ -98,9 +115,6 @@ impl Bitplane {
         frontiers
     }
 }
-
-/// The place in the result of a component that is not in it.
-const DROPPED: usize = usize::MAX;
 
 impl FrontierDetector for Bitplane {
     fn name(&self) -> &'static str {

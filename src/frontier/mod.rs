@@ -1,6 +1,7 @@
 //! Frontiers and the detectors that find them (floor 1): one file for each detector.
 
 mod bitplane;
+mod flood;
 mod params;
 mod representative;
 mod runs;

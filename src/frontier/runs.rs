@@ -28,7 +28,8 @@ impl Run {
 /// buffers are kept from one plane to the next.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Runs {
-    runs: Vec<Run>,
+    /// Start and end of each run in turn.
+    edges: Vec<u32>,
     /// Index of the first run of each row, and of the end.
     row_first: Vec<u32>,
     /// The component of each run: the index of its first run. Until [`Self::label`] is
@@ -39,7 +40,7 @@ pub(super) struct Runs {
 impl Runs {
     /// Takes in the runs of a plane and connects them.
     pub fn label(&mut self, plane: &BitPlane, neighbourhood: Neighbourhood) {
-        self.runs.clear();
+        self.edges.clear();
         self.component.clear();
         self.row_first.clear();
         self.row_first.push(0);
@@ -48,9 +49,9 @@ impl Runs {
         let margin = u32::from(neighbourhood == Neighbourhood::Eight);
         let mut above = 0..0;
         for y in 0..plane.height() {
-            let first = self.runs.len();
-            extract(plane.row(y), &mut self.runs);
-            let row = first..self.runs.len();
+            let first = self.len();
+            extract(plane.row(y), &mut self.edges);
+            let row = first..self.len();
             self.connect(above, row.clone(), margin);
             self.row_first.push(row.end as u32);
             above = row;
@@ -63,14 +64,17 @@ impl Runs {
 
     /// Number of runs.
     pub const fn len(&self) -> usize {
-        self.runs.len()
+        self.edges.len() / 2
     }
 
     /// All runs in row-major order: row, run, component.
     pub fn iter(&self) -> impl Iterator<Item = (usize, Run, u32)> {
         self.row_first.windows(2).enumerate().flat_map(move |(y, bounds)| {
             let row = bounds[0] as usize..bounds[1] as usize;
-            self.runs[row.clone()].iter().zip(&self.component[row]).map(move |(&run, &component)| (y, run, component))
+            self.pairs()[row.clone()]
+                .iter()
+                .zip(&self.component[row])
+                .map(move |(&[start, end], &component)| (y, Run { start, end }, component))
         })
     }
 
@@ -78,88 +82,88 @@ impl Runs {
     pub fn component_at(&self, cell: Cell) -> Option<u32> {
         let (x, y) = (u32::try_from(cell.x).ok()?, usize::try_from(cell.y).ok()?);
         let (first, end) = (*self.row_first.get(y)? as usize, *self.row_first.get(y + 1)? as usize);
-        let row = &self.runs[first..end];
-        let in_row = row.partition_point(|run| run.end <= x);
-        (row.get(in_row)?.start <= x).then(|| self.component[first + in_row])
+        let row = &self.pairs()[first..end];
+        let in_row = row.partition_point(|&[_, end]| end <= x);
+        (row.get(in_row)?[0] <= x).then(|| self.component[first + in_row])
     }
 
     /// Clears in the labelled plane, or in one of the same size, all runs that do not
     /// belong to a component.
     pub fn clear_others(&self, plane: &mut BitPlane, kept: Option<u32>) {
-        for (y, run, component) in self.iter() {
-            if Some(component) != kept {
-                plane.clear_run(y, run.start as usize, run.end as usize);
-            }
-        }
+        self.iter().filter(|&(.., component)| Some(component) != kept).for_each(|(y, run, _)| {
+            plane.clear_run(y, run.start as usize, run.end as usize);
+        });
     }
 
-    /// Gives each run of a row a parent, and unites the runs above that it touches.
+    /// The runs as pairs of start and end.
+    fn pairs(&self) -> &[[u32; 2]] {
+        self.edges.as_chunks::<2>().0
+    }
+
+    /// Gives each run of a row a parent, and unites it with the runs above that it
+    /// touches.
     fn connect(&mut self, above: Range<usize>, row: Range<usize>, margin: u32) {
-        let mut candidate = above.start;
-        for i in row {
-            let run = self.runs[i];
-            let mut root = i as u32;
-            self.component.push(root);
-            while candidate < above.end && self.runs[candidate].end + margin <= run.start {
-                candidate += 1;
-            }
-            while candidate < above.end && self.runs[candidate].start < run.end + margin {
-                root = self.unite(root, candidate as u32);
-                // The next run of this row may touch a run above that goes on beyond
-                // this one.
-                if self.runs[candidate].end >= run.end + margin {
+        let Self { edges, component, .. } = self;
+        let pairs = edges.as_chunks::<2>().0;
+        let mut candidates = &pairs[above.clone()];
+        let mut candidate = above.start as u32;
+        for (&[start, end], i) in pairs[row.clone()].iter().zip(row.start as u32..) {
+            let mut root = i;
+            component.push(root);
+            while let [[above_start, above_end], rest @ ..] = candidates
+                && *above_start < end + margin
+            {
+                if above_end + margin > start {
+                    root = unite(component, root, candidate);
+                }
+                // A run above that goes on beyond this one may touch the next too.
+                if *above_end > end {
                     break;
                 }
+                candidates = rest;
                 candidate += 1;
             }
-        }
-    }
-
-    /// Unites the component of root `a` with that of run `b`; the new root.
-    #[inline]
-    fn unite(&mut self, a: u32, b: u32) -> u32 {
-        let b = self.root(b);
-        let (low, high) = (a.min(b), a.max(b));
-        self.component[high as usize] = low;
-        low
-    }
-
-    #[inline]
-    fn root(&mut self, mut run: u32) -> u32 {
-        loop {
-            let parent = self.component[run as usize];
-            if parent == run {
-                return run;
-            }
-            let grandparent = self.component[parent as usize];
-            self.component[run as usize] = grandparent;
-            run = grandparent;
         }
     }
 }
 
-/// Appends the runs of one row.
-fn extract(row: &[u64], runs: &mut Vec<Run>) {
+/// Unites the component of root `a` with that of run `b`; the new root.
+#[inline]
+fn unite(component: &mut [u32], a: u32, b: u32) -> u32 {
+    let b = root_of(component, b);
+    let (low, high) = (a.min(b), a.max(b));
+    component[high as usize] = low;
+    low
+}
+
+#[inline]
+fn root_of(component: &mut [u32], mut run: u32) -> u32 {
+    loop {
+        let parent = component[run as usize];
+        if parent == run {
+            return run;
+        }
+        let grandparent = component[parent as usize];
+        component[run as usize] = grandparent;
+        run = grandparent;
+    }
+}
+
+/// Appends the runs of one row. A run begins and ends where a bit differs from the one
+/// before it, so that the edges of a row, in order, are starts and ends in turn.
+fn extract(row: &[u64], edges: &mut Vec<u32>) {
     let mut last_bit = 0;
-    let mut open = None;
     for (index, &word) in row.iter().enumerate() {
-        let mut edges = word ^ (word << 1 | last_bit);
+        let mut changes = word ^ (word << 1 | last_bit);
         last_bit = word >> (WORD_CELLS - 1);
         let base = (index * WORD_CELLS) as u32;
-        while edges != 0 {
-            let column = base + edges.trailing_zeros();
-            edges &= edges - 1;
-            open = match open {
-                None => Some(column),
-                Some(start) => {
-                    runs.push(Run { start, end: column });
-                    None
-                }
-            };
+        while changes != 0 {
+            edges.push(base + changes.trailing_zeros());
+            changes &= changes - 1;
         }
     }
-    if let Some(start) = open {
-        runs.push(Run { start, end: (row.len() * WORD_CELLS) as u32 });
+    if last_bit != 0 {
+        edges.push((row.len() * WORD_CELLS) as u32);
     }
 }
 

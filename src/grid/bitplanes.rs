@@ -7,6 +7,7 @@
 //! Delight" (2012), 7-3. O(cells); nothing is allocated while the size stays the same.
 
 use super::{Cell, GridInfo, OccupancyGrid, Thresholds};
+use std::ops::Range;
 
 /// Cells in a word.
 pub const WORD_CELLS: usize = 64;
@@ -95,6 +96,44 @@ impl BitPlane {
         }
     }
 
+    /// The first column among those given whose bit is set in row `y`.
+    #[must_use]
+    pub fn first_in(&self, y: usize, columns: Range<usize>) -> Option<usize> {
+        let row = self.row(y);
+        let mut index = columns.start / WORD_CELLS;
+        let mut word = row.get(index)? & (u64::MAX << (columns.start % WORD_CELLS));
+        while word == 0 {
+            index += 1;
+            if index * WORD_CELLS >= columns.end {
+                return None;
+            }
+            word = *row.get(index)?;
+        }
+        let column = index * WORD_CELLS + word.trailing_zeros() as usize;
+        (column < columns.end).then_some(column)
+    }
+
+    /// The longest range of columns around `x` whose bits are all set in row `y`, as
+    /// that of `x` must be.
+    #[must_use]
+    pub fn run_around(&self, y: usize, x: usize) -> Range<usize> {
+        let row = self.row(y);
+        let (index, bit) = (x / WORD_CELLS, x % WORD_CELLS);
+        let gap_before = |i: usize, mask: u64| match !row[i] & mask {
+            0 => None,
+            gaps => Some((i + 1) * WORD_CELLS - gaps.leading_zeros() as usize),
+        };
+        let gap_after = |i: usize, mask: u64| match !row[i] & mask {
+            0 => None,
+            gaps => Some(i * WORD_CELLS + gaps.trailing_zeros() as usize),
+        };
+        let start = gap_before(index, u64::MAX >> (WORD_CELLS - 1 - bit))
+            .or_else(|| (0..index).rev().find_map(|i| gap_before(i, u64::MAX)));
+        let end =
+            gap_after(index, u64::MAX << bit).or_else(|| (index + 1..row.len()).find_map(|i| gap_after(i, u64::MAX)));
+        start.unwrap_or(0)..end.unwrap_or(self.width)
+    }
+
     /// Clears the bits of the columns `start..end` of row `y`, which must be cells.
     pub fn clear_run(&mut self, y: usize, start: usize, end: usize) {
         if start >= end {
@@ -123,6 +162,13 @@ impl BitPlane {
     pub fn intersect(&mut self, other: &Self) {
         for (word, other) in self.words.iter_mut().zip(&other.words) {
             *word &= other;
+        }
+    }
+
+    /// Clears the bits that are set in another plane of the same size.
+    pub fn subtract(&mut self, other: &Self) {
+        for (word, other) in self.words.iter_mut().zip(&other.words) {
+            *word &= !other;
         }
     }
 

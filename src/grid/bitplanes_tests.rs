@@ -79,6 +79,23 @@ fn runs_are_cleared_to_the_cell() {
 }
 
 #[test]
+fn runs_are_found_to_the_cell() {
+    for (start, end) in [(0, 1), (3, 4), (60, 64), (64, 65), (63, 129), (0, 192), (191, 192), (128, 192), (0, 64)] {
+        let mut plane = BitPlane::new(192, 2);
+        for x in start..end {
+            plane.insert(Cell::new(x as i32, 1));
+        }
+        assert_eq!(plane.run_around(1, start), start..end);
+        assert_eq!(plane.run_around(1, end - 1), start..end);
+        assert_eq!(plane.first_in(1, 0..192), Some(start));
+        assert_eq!(plane.first_in(1, end - 1..192), Some(end - 1));
+        assert_eq!(plane.first_in(1, 0..start), None);
+        assert_eq!(plane.first_in(1, end..192), None);
+        assert_eq!(plane.first_in(0, 0..192), None);
+    }
+}
+
+#[test]
 fn outside_nothing_is_set() {
     let mut plane = BitPlane::new(65, 2);
     for cell in [Cell::new(-1, 0), Cell::new(65, 0), Cell::new(0, 2), Cell::new(0, -1)] {
