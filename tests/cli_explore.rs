@@ -181,12 +181,12 @@ fn detect_prints_a_table_json_and_a_picture() {
         .args(["detect", map, "--at", "2.5,1.5", "--overlay", picture.to_str().unwrap(), "--theme", "paper"])
         .assert()
         .success()
-        .stdout(predicates::str::contains("1 frontiers, nearest first (wavefront, reachability walls_block)"));
+        .stdout(predicates::str::contains("1 frontiers, nearest first (bitplane, reachability walls_block)"));
     assert!(std::fs::read(&picture).unwrap().starts_with(&[0x89, b'P', b'N', b'G']));
 
     let output = frontier().args(["detect", map, "--at", "2.5,1.5", "--json", "--neighbours", "4"]).output().unwrap();
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(found["detector"], "wavefront");
+    assert_eq!(found["detector"], "bitplane");
     assert_eq!(found["reachability"], "walls_block");
     assert_eq!(found["grid"]["width"], 5);
     // With sides alone the rim falls apart at its corners; one frontier is too small.

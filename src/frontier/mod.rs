@@ -1,15 +1,19 @@
 //! Frontiers and the detectors that find them (floor 1): one file for each detector.
 
+mod bitplane;
 mod canny;
 mod dbscan;
 mod fast;
+mod flood;
 mod image;
 mod params;
 mod plane;
 mod representative;
+mod runs;
 mod wavefront;
 mod yamauchi;
 
+pub use bitplane::Bitplane;
 pub use canny::{Canny, CannyParams};
 pub use dbscan::{Dbscan, DbscanParams};
 pub use fast::{Fast, FastParams};
@@ -147,8 +151,10 @@ pub trait FrontierDetector: Send {
 #[serde(rename_all = "snake_case")]
 pub enum DetectorKind {
     /// The textbook Wavefront Frontier Detector (Topiwala 2018).
-    #[default]
     Wavefront,
+    /// The same frontiers from bit planes, at the speed of memory.
+    #[default]
+    Bitplane,
     /// A scan of the whole grid (Yamauchi 1997).
     Yamauchi,
     /// Image processing with enclosing circles (Liang 2020).
@@ -164,7 +170,7 @@ pub enum DetectorKind {
 impl DetectorKind {
     /// All detectors, for tables of tests, help and benchmarks.
     pub const ALL: &'static [Self] =
-        &[Self::Wavefront, Self::Yamauchi, Self::Image, Self::Dbscan, Self::Canny, Self::Fast];
+        &[Self::Wavefront, Self::Bitplane, Self::Yamauchi, Self::Image, Self::Dbscan, Self::Canny, Self::Fast];
 
     /// Its name in configuration files.
     #[must_use]
@@ -176,6 +182,7 @@ impl DetectorKind {
             Self::Dbscan => "dbscan",
             Self::Canny => "canny",
             Self::Fast => "fast",
+            Self::Bitplane => "bitplane",
         }
     }
 
@@ -189,6 +196,7 @@ impl DetectorKind {
             Self::Dbscan => Box::new(Dbscan::new(*params)),
             Self::Canny => Box::new(Canny::new(*params)),
             Self::Fast => Box::new(Fast::new(*params)),
+            Self::Bitplane => Box::new(Bitplane::new(*params)),
         }
     }
 }

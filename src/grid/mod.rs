@@ -4,6 +4,7 @@
 //! index `y * width + x`; images, whose first row is the highest y, are turned over
 //! where they are read or written and nowhere else.
 
+mod bitplanes;
 mod costmap;
 mod distance;
 mod info;
@@ -11,6 +12,7 @@ mod occupancy;
 mod raytrace;
 mod state;
 
+pub use bitplanes::{BitPlane, BitPlanes, WORD_CELLS};
 pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, UNKNOWN_COST};
 pub use distance::{squared_distance_cells, squared_distance_cells_within};
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};

@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{detect, explore, map};
+use crate::commands::{bench, detect, explore, map};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -22,4 +22,7 @@ pub enum Command {
     /// Look at, convert and compare map_server maps.
     #[command(subcommand)]
     Map(map::Command),
+    /// Time decisions on a map.
+    #[command(subcommand)]
+    Bench(bench::Command),
 }

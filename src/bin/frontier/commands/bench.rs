@@ -1,0 +1,129 @@
+//! `frontier bench`: how long a decision takes on a map.
+
+use crate::exit::Outcome;
+use crate::{inputs, output, values};
+use anyhow::{Context, bail};
+use clap::Subcommand;
+use comfy_table::Table;
+use frontier_explorer::config::{Preset, RobotConfig};
+use frontier_explorer::explore::Explorer;
+use frontier_explorer::geometry::Pose;
+use frontier_explorer::grid::OccupancyGrid;
+use frontier_explorer::io::load_map;
+use frontier_explorer::robot::{MapSnapshot, Navigation, NavigationState, Observation};
+use serde::Serialize;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// What to time.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Whole decisions: costmap, detection, ways, goal choice, plan.
+    Decide(DecideArgs),
+}
+
+/// Arguments of `frontier bench decide`.
+#[derive(Debug, clap::Args)]
+pub struct DecideArgs {
+    /// The map's YAML file.
+    map: PathBuf,
+    /// Where the robot is: X,Y or X,Y,YAW in metres and radians of the map frame.
+    #[arg(long, value_name = "X,Y", value_parser = values::pose, allow_hyphen_values = true)]
+    at: Pose,
+    /// Preset: a YAML file, a built-in name, or all.
+    #[arg(long, value_name = "PRESET", default_value = "all")]
+    config: String,
+    /// The robot: a YAML file or a built-in name.
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]
+    robot: String,
+    /// How often each one decides.
+    #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// The times of one preset.
+#[derive(Debug, Serialize)]
+struct Timing {
+    preset: String,
+    frontiers: usize,
+    median_ms: f64,
+    min_ms: f64,
+    p90_ms: f64,
+}
+
+/// Runs `frontier bench`.
+pub fn run(command: &Command) -> anyhow::Result<Outcome> {
+    match command {
+        Command::Decide(args) => decide(args),
+    }
+}
+
+fn decide(args: &DecideArgs) -> anyhow::Result<Outcome> {
+    let grid = Arc::new(load_map(&args.map)?.grid);
+    let robot = inputs::robot(&args.robot)?;
+    let names: Vec<String> = match args.config.as_str() {
+        "all" => Preset::names().map(str::to_owned).collect(),
+        name => vec![name.to_owned()],
+    };
+    let mut timings = Vec::new();
+    for name in names {
+        let preset = inputs::preset(&name)?;
+        timings.push(time_decisions(args, &preset, &robot, &grid).with_context(|| format!("preset {name}"))?);
+    }
+    if args.json {
+        output::json(&timings)?;
+        return Ok(Outcome::Done);
+    }
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::NOTHING);
+    table.set_header(["preset", "frontiers", "median (ms)", "min (ms)", "90 % (ms)"]);
+    for t in &timings {
+        let ms = |value: f64| format!("{value:.1}");
+        table.add_row([t.preset.clone(), t.frontiers.to_string(), ms(t.median_ms), ms(t.min_ms), ms(t.p90_ms)]);
+    }
+    output::line(format_args!("{table}"))?;
+    Ok(Outcome::Done)
+}
+
+/// Times the first decision of an explorer, and the same again with a map of its own
+/// each time: nothing is kept from run to run but what the explorer itself keeps.
+fn time_decisions(
+    args: &DecideArgs,
+    preset: &Preset,
+    robot: &RobotConfig,
+    grid: &Arc<OccupancyGrid>,
+) -> anyhow::Result<Timing> {
+    let mut settings = preset.explorer.clone();
+    settings.turns.at_start = false;
+    let mut times_ms = Vec::new();
+    let mut frontiers = 0;
+    for run in 0..=args.runs {
+        let mut explorer = Explorer::new(settings.clone(), robot.inflation(), &robot.body())?;
+        let stamp_s = f64::from(run);
+        let observation = Observation {
+            stamp_s,
+            pose_in_map: Ok(args.at),
+            map: Some(MapSnapshot { stamp_s, grid: Arc::clone(grid), costmap: None }),
+            scan: None,
+            navigation: Navigation { command: 0, state: NavigationState::Idle },
+        };
+        let began = Instant::now();
+        let decision = explorer.step(&observation);
+        let took_ms = began.elapsed().as_secs_f64() * 1e3;
+        let Some(record) = decision.record else {
+            bail!("no decision is possible at ({}, {}) m of {}", args.at.x, args.at.y, args.map.display());
+        };
+        frontiers = record.candidates.len();
+        // The first one warms the caches.
+        if run > 0 {
+            times_ms.push(took_ms);
+        }
+    }
+    times_ms.sort_by(f64::total_cmp);
+    let at = |share: f64| times_ms.get(((times_ms.len() - 1) as f64 * share) as usize).copied().unwrap_or_default();
+    Ok(Timing { preset: preset.preset.clone(), frontiers, median_ms: at(0.5), min_ms: at(0.0), p90_ms: at(0.9) })
+}
