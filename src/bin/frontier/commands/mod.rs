@@ -1,5 +1,6 @@
 //! One file for each command.
 
+pub mod compare;
 pub mod detect;
 pub mod explore;
 pub mod map;
@@ -11,6 +12,7 @@ use crate::exit::Outcome;
 pub fn run(command: Command) -> anyhow::Result<Outcome> {
     match command {
         Command::Explore(args) => explore::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Detect(args) => detect::run(&args),
         Command::Map(command) => map::run(&command),
     }
