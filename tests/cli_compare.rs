@@ -7,7 +7,9 @@ use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::{GridInfo, OccupancyGrid};
 use frontier_explorer::io::{SaveOptions, save_map};
 use serde_json::{Value, json};
+use std::io::{BufRead, BufReader};
 use std::path::Path;
+use std::process::{Command as Process, Stdio};
 use tempfile::TempDir;
 
 fn frontier(folder: &Path) -> Command {
@@ -126,6 +128,30 @@ fn runs_that_take_too_long_are_failures_and_stay_in_the_table() {
     assert!(String::from_utf8(output.stdout).unwrap().contains("0/2"));
     // Without a terminal every run is a line.
     assert_eq!(String::from_utf8(output.stderr).unwrap().lines().count(), 2);
+}
+
+#[test]
+fn interrupting_keeps_the_runs_that_are_done_and_exits_with_3() {
+    let folder = folder();
+    let seeds: Vec<String> = (1..=500).map(|seed| seed.to_string()).collect();
+    let mut child = Process::new(env!("CARGO_BIN_EXE_frontier"))
+        .current_dir(folder.path())
+        .args(["compare", "--presets=plain.yaml", "--worlds=rooms.yaml", "--json=some.json", "--jobs=1", "--seeds"])
+        .arg(seeds.join(","))
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A line is written for every run that is done.
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    lines.next().unwrap().unwrap();
+    assert!(Process::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    lines.for_each(drop);
+    assert_eq!(child.wait().unwrap().code(), Some(3));
+    let some: Value = serde_json::from_slice(&std::fs::read(folder.path().join("some.json")).unwrap()).unwrap();
+    let runs = some["runs"].as_array().unwrap();
+    assert!((1..500).contains(&runs.len()), "{}", runs.len());
+    assert!(runs.iter().all(|run| run["end_reason"] == "complete"));
 }
 
 /// The results of runs that were never made.

@@ -76,7 +76,7 @@ fn draw(svg: &mut String, comparison: &Comparison, world: &str, latest: f64) -> 
         if runs.len() > 1 {
             for run in &runs {
                 let points = run.coverage_over_time.iter().map(|&[t, share]| (t, share * 100.0));
-                chart.draw_series(LineSeries::new(points, color(i).mix(0.3).stroke_width(1)))?;
+                chart.draw_series(LineSeries::new(points, color(i).mix(0.45).stroke_width(1)))?;
             }
         }
     }

@@ -82,9 +82,15 @@ impl LiangTable {
     #[must_use]
     pub fn verdict(&self) -> String {
         let holds = |holds: bool| if holds { "holds" } else { "does not hold" };
+        let failed: usize = self.rows.iter().map(|row| row.tend.of - row.tend.reached).sum();
+        let caution = if failed > 0 {
+            format!(" {failed} of the runs failed and count as slower than all others.")
+        } else {
+            String::new()
+        };
         format!(
             "The paper's order, proposed < closest frontier < maximum gain, {} for our median Tend and {} for our \
-             median T99.",
+             median T99.{caution}",
             holds(self.order_holds_tend),
             holds(self.order_holds_t99)
         )
@@ -111,7 +117,12 @@ mod tests {
         assert_eq!((same.rows[2].tend.of, same.rows[2].tend.median), (2, Some(300.0)));
         let other = table(&presets, "museum", [300.0, 400.0, 400.0]).unwrap();
         assert!(!other.order_holds_tend, "equal is not faster");
-        assert!(other.verdict().contains("does not hold"));
+        assert!(other.verdict().contains("does not hold") && !other.verdict().contains("failed"));
+        let failing = table(&presets, "museum", [300.0, 400.0, 500.0]).map(|mut table| {
+            table.rows[1].tend = Spread::of([None, Some(1.0)]);
+            table.verdict()
+        });
+        assert!(failing.unwrap().ends_with("1 of the runs failed and count as slower than all others."));
     }
 
     #[test]
