@@ -4,7 +4,7 @@
 use super::blacklist::{Blacklist, Taboo};
 use super::record::{CandidateRecord, CandidateStatus};
 use super::settings::ExplorerSettings;
-use super::standing::standing_goal;
+use super::standing::StandingSearch;
 use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose};
 use crate::grid::GridInfo;
@@ -42,12 +42,12 @@ pub struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     /// Assesses one frontier.
-    pub fn assess(&self, frontier: &Frontier) -> Assessed {
+    pub fn assess(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Assessed {
         let settings = self.settings;
         let target = settings.goal.representative.of(frontier, self.info, self.robot.position());
         let distance_m = self.robot.distance_to(target);
         let goal = self.field.and_then(|field| {
-            standing_goal(field, &self.robot, target, settings.goal.search_radius_m, settings.goal.heading)
+            standing.goal(field, &self.robot, target, settings.goal.search_radius_m, settings.goal.heading)
         });
         let size_m = frontier.size_m(self.info);
         let candidate = goal.map(|goal| Candidate {

@@ -2,8 +2,9 @@
 
 use super::assess::{Assessed, Surroundings, rank};
 use super::blacklist::{Blacklist, Taboo};
-use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind};
+use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position};
 use super::settings::ExplorerSettings;
+use super::standing::StandingSearch;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector};
 use crate::geometry::{Body, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
@@ -35,6 +36,13 @@ pub struct Decided {
 }
 
 impl Decided {
+    /// Whether the robot could still be sent to a frontier near a point.
+    pub fn is_open_near(&self, target: Point, radius_m: f64) -> bool {
+        let is_open = |status| matches!(status, CandidateStatus::Chosen | CandidateStatus::Eligible);
+        let near = |at: Position| nalgebra::distance(&target, &Point::new(at.x, at.y)) <= radius_m;
+        self.record.candidates.iter().any(|c| is_open(c.status) && near(c.target))
+    }
+
     /// Why a run ends for which nothing is left to choose.
     pub fn why_nothing_is_left(&self) -> (EndReason, String) {
         let LeftBehind { frontiers, unreachable, failed, exhausted, outside_region } = self.left_behind;
@@ -61,6 +69,7 @@ pub struct Lookout {
     planner: Box<dyn GlobalPlanner>,
     thresholds: Thresholds,
     inflation: Inflation,
+    standing: StandingSearch,
     frontiers: Vec<Vec<Point>>,
     /// The costmap made last, with the stamp of its map.
     costmap: Option<(f64, Arc<Costmap>)>,
@@ -75,6 +84,7 @@ impl Lookout {
             planner: settings.planner.build(body),
             thresholds: settings.thresholds,
             inflation,
+            standing: StandingSearch::default(),
             frontiers: Vec::new(),
             costmap: None,
         }
@@ -113,7 +123,8 @@ impl Lookout {
         // the next map may free it.
         let field = PathField::new(Arc::clone(&costmap), &robot).ok();
         let surroundings = Surroundings { settings, info: grid.info(), field: field.as_ref(), blacklist, robot, now_s };
-        let mut assessed: Vec<Assessed> = frontiers.iter().map(|frontier| surroundings.assess(frontier)).collect();
+        let standing = &mut self.standing;
+        let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
         let eligible = rank(&mut assessed, &mut *self.selector, robot);
         let choice = self.first_with_a_way(&mut assessed[..eligible], &costmap, &robot);
         let left_behind = count(&assessed);

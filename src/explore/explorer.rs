@@ -245,10 +245,16 @@ impl Explorer {
         if let Some(choice) = &decided.choice {
             self.empty_in_a_row = 0;
             if let State::Driving(drive) = &mut self.state
-                && drive.goal.distance_to(choice.goal.position()) < self.settings.goal.already_there_m
+                && self.lookout.can_stand(map, drive.goal.position())
             {
-                drive.considered_s = map.stamp_s;
-                return;
+                let goal = &self.settings.goal;
+                let is_same = drive.goal.distance_to(choice.goal.position()) < goal.already_there_m;
+                if is_same || decided.is_open_near(drive.target, goal.commit_radius_m) {
+                    drive.considered_s = map.stamp_s;
+                    record.goal = Some(drive.goal);
+                    "the goal under way is kept".clone_into(&mut record.why);
+                    return;
+                }
             }
             self.counts.goals_sent += 1;
             let (id, progress) = (self.next_id(), ProgressMonitor::new(&pose, now_s));

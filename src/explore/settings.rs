@@ -59,6 +59,10 @@ pub struct GoalSettings {
     /// Decide anew every so many seconds while driving; never when absent, as the
     /// papers that drive to the end of each goal have it.
     pub reconsider_period_s: Option<f64>,
+    /// A goal that is reconsidered is kept while a frontier that could be chosen remains
+    /// this near to the one it was chosen for, metres: robots that follow every change
+    /// of mind run to and fro between rooms. 0 never keeps it.
+    pub commit_radius_m: f64,
 }
 
 impl Default for GoalSettings {
@@ -69,6 +73,7 @@ impl Default for GoalSettings {
             heading: GoalHeading::TowardFrontier,
             already_there_m: 0.25,
             reconsider_period_s: None,
+            commit_radius_m: 1.0,
         }
     }
 }
@@ -197,6 +202,7 @@ impl ExplorerSettings {
         }
         for (key, value) in [
             ("goal.already_there_m", goal.already_there_m),
+            ("goal.commit_radius_m", goal.commit_radius_m),
             ("patience.settle_s", patience.settle_s),
             ("taboo.expiry_s", taboo.expiry_s),
         ] {

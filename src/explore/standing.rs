@@ -1,8 +1,8 @@
 //! Where to stand for a frontier.
 
 use crate::geometry::{Point, Pose};
-use crate::grid::LETHAL_COST;
-use crate::planning::{PathField, flood};
+use crate::grid::{Cell, LETHAL_COST, Neighbourhood};
+use crate::planning::PathField;
 use serde::{Deserialize, Serialize};
 
 /// Which way the robot looks at its goal.
@@ -16,30 +16,76 @@ pub enum GoalHeading {
     AsApproached,
 }
 
-/// The place nearest to `target` where the robot can stand and to which it can get,
-/// found by a flood that no obstacle lets through: never a place on the other side of
-/// a wall. `None` when there is none within `radius_m`.
-pub fn standing_goal(
-    field: &PathField,
-    robot: &Pose,
-    target: Point,
-    radius_m: f64,
-    heading: GoalHeading,
-) -> Option<Pose> {
-    let costmap = field.costmap();
-    let info = costmap.info();
-    let center = info.cell_at(target);
-    let reach = info.cells(radius_m).ceil() as i64;
-    let near = |cell: crate::grid::Cell| cell.distance_squared(center) <= reach * reach;
-    let place = flood(info, center, |cell| near(cell) && costmap.cost(cell) != LETHAL_COST)
-        .find(|&cell| field.reaches(cell))
-        .map(|cell| info.center(cell))?;
-    let yaw = match heading {
-        GoalHeading::TowardFrontier => Pose::facing(place, target).yaw,
-        GoalHeading::AsApproached => Pose::facing(robot.position(), place).yaw,
-    };
-    Some(Pose::new(place.x, place.y, yaw))
+/// Looks for places to stand; kept for its memory, as a decision asks for hundreds.
+#[derive(Clone, Debug, Default)]
+pub struct StandingSearch {
+    /// In which search each cell around the target was seen last.
+    seen: Vec<u32>,
+    search: u32,
+    queue: Vec<Cell>,
 }
+
+impl StandingSearch {
+    /// The place nearest to `target` where the robot can stand and to which it can get,
+    /// found by a flood that no obstacle lets through: never a place on the other side of
+    /// a wall. `None` when there is none within `radius_m`.
+    pub fn goal(
+        &mut self,
+        field: &PathField,
+        robot: &Pose,
+        target: Point,
+        radius_m: f64,
+        heading: GoalHeading,
+    ) -> Option<Pose> {
+        let info = field.costmap().info();
+        let place = info.center(self.nearest_place(field, info.cell_at(target), radius_m)?);
+        let yaw = match heading {
+            GoalHeading::TowardFrontier => Pose::facing(place, target).yaw,
+            GoalHeading::AsApproached => Pose::facing(robot.position(), place).yaw,
+        };
+        Some(Pose::new(place.x, place.y, yaw))
+    }
+
+    fn nearest_place(&mut self, field: &PathField, center: Cell, radius_m: f64) -> Option<Cell> {
+        let costmap = field.costmap();
+        let info = costmap.info();
+        let reach = info.cells(radius_m).ceil().min(MAX_REACH_CELLS) as i32;
+        let side = 2 * reach + 1;
+        let slots = (side * side) as usize;
+        if self.seen.len() != slots || self.search == u32::MAX {
+            self.seen.clear();
+            self.seen.resize(slots, 0);
+            self.search = 0;
+        }
+        self.search += 1;
+        let slot = |cell: Cell| ((cell.y - center.y + reach) * side + cell.x - center.x + reach) as usize;
+        let limit = i64::from(reach).pow(2);
+        self.queue.clear();
+        self.queue.push(center);
+        self.seen[slot(center)] = self.search;
+        let mut next = 0;
+        while let Some(&cell) = self.queue.get(next) {
+            next += 1;
+            if field.reaches(cell) {
+                return Some(cell);
+            }
+            for neighbour in info.neighbours(cell, Neighbourhood::Eight) {
+                if neighbour.distance_squared(center) > limit || costmap.cost(neighbour) == LETHAL_COST {
+                    continue;
+                }
+                let seen = &mut self.seen[slot(neighbour)];
+                if *seen != self.search {
+                    *seen = self.search;
+                    self.queue.push(neighbour);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// A radius of more cells than this is cut: the search stays small.
+const MAX_REACH_CELLS: f64 = 1000.0;
 
 #[cfg(test)]
 mod tests {
@@ -54,7 +100,9 @@ mod tests {
         let robot = Pose::new(1.5, 1.5, 0.0);
         let field = PathField::new(costmap, &robot).unwrap();
         let target = Point::new(target.0, target.1);
-        standing_goal(&field, &robot, target, radius_m, GoalHeading::TowardFrontier).map(|p| (p.x, p.y))
+        StandingSearch::default()
+            .goal(&field, &robot, target, radius_m, GoalHeading::TowardFrontier)
+            .map(|p| (p.x, p.y))
     }
 
     #[test]

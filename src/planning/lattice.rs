@@ -44,7 +44,8 @@ pub struct Step {
 pub struct Lattice<'a> {
     costs: &'a [u8],
     width: usize,
-    height: usize,
+    /// 2^64 / width, rounded up: multiplying by it divides by the width.
+    inverse_width: u64,
     straight: [u32; COST_SUMS],
     diagonal: [u32; COST_SUMS],
 }
@@ -70,7 +71,7 @@ impl<'a> Lattice<'a> {
         Self {
             costs: costmap.costs(),
             width: info.width(),
-            height: info.height(),
+            inverse_width: (u64::MAX / info.width() as u64).wrapping_add(1),
             straight: const { table(STRAIGHT) },
             diagonal: const { table(DIAGONAL) },
         }
@@ -88,17 +89,26 @@ impl<'a> Lattice<'a> {
         self.costs[index] < INSCRIBED_COST
     }
 
+    /// Column of a cell: the remainder of a division by the width, which is exact for
+    /// indices below 2^32 (Lemire, Kaser and Kurz, "Faster remainder by direct
+    /// computation", 2019).
+    #[inline]
+    const fn column(&self, index: usize) -> usize {
+        let fraction = self.inverse_width.wrapping_mul(index as u64);
+        ((fraction as u128 * self.width as u128) >> 64) as usize
+    }
+
     /// Calls `visit` with every allowed step from a cell. A diagonal step needs both
     /// cells beside it passable: no corner is cut.
     #[inline]
     pub fn for_each_step(&self, from: usize, mut visit: impl FnMut(Step)) {
-        let (x, y) = (from % self.width, from / self.width);
+        let x = self.column(from);
         let here = self.costs[from];
         let open = |inside: bool, index: usize| inside && self.costs[index] < INSCRIBED_COST;
         let east = open(x + 1 < self.width, from + 1);
         let west = open(x > 0, from.wrapping_sub(1));
-        let north = open(y + 1 < self.height, from + self.width);
-        let south = open(y > 0, from.wrapping_sub(self.width));
+        let north = open(from + self.width < self.costs.len(), from + self.width);
+        let south = open(from >= self.width, from.wrapping_sub(self.width));
         let mut step = |to: usize, table: &[u32; COST_SUMS], direction: u8| {
             let sum = usize::from(here) + usize::from(self.costs[to]);
             visit(Step { to, cost: table[sum.min(COST_SUMS - 1)], direction });
@@ -175,6 +185,17 @@ mod tests {
         assert_eq!(steps(&lattice, 4), expected);
         assert_eq!(steps(&lattice, 0), [(1, 12), (3, 12), (4, 17)]);
         assert_eq!(lattice.octile(0, 5), 12 + 17);
+    }
+
+    #[test]
+    fn columns_are_remainders() {
+        for width in [1_u32, 2, 3, 5, 7, 64, 100, 1165, 16384] {
+            let map = costmap(width, &vec![0; width as usize]);
+            let lattice = Lattice::new(&map);
+            for index in (0..1 << 28).step_by(99_991).chain([0, 1, (1 << 28) - 1]) {
+                assert_eq!(lattice.column(index), index % width as usize, "{index} of {width}");
+            }
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@
 
 mod animation;
 mod canvas;
+mod comparison;
 mod frame_log;
 mod html;
 mod overlay;
@@ -21,6 +22,10 @@ mod view;
 
 pub use animation::Animation;
 pub use canvas::Canvas;
+pub use comparison::{
+    COMPARISON_SCHEMA_VERSION, ComparedPreset, ComparedRun, ComparedWorld, Comparison, ComparisonError, ComparisonPlan,
+    LiangRow, LiangTable, Measure, PlannedRun, SUCCESS_COVERAGE, Spread, Summary, WorldPicture,
+};
 pub use frame_log::{Frame, FrameLog};
 pub use html::HtmlReport;
 pub use overlay::{Overlay, OverlayFrontier};

@@ -8,16 +8,16 @@ use super::series::SeriesPoint;
 use plotters::prelude::*;
 
 /// Width of a chart in its own units; a page scales it.
-const WIDTH: u32 = 560;
+pub(super) const WIDTH: u32 = 560;
 
 /// Height of a chart in its own units.
-const HEIGHT: u32 = 300;
+pub(super) const HEIGHT: u32 = 300;
 
 /// A colour that nothing else has: it stands for that of the text until the end.
-const TEXT: RGBColor = RGBColor(1, 2, 3);
+pub(super) const TEXT: RGBColor = RGBColor(1, 2, 3);
 
 /// How [`TEXT`] is written by the SVG backend.
-const TEXT_HEX: &str = "#010203";
+pub(super) const TEXT_HEX: &str = "#010203";
 
 /// Colour of the curves: that of paths on maps.
 const CURVE: RGBColor = RGBColor(0x2b, 0x8c, 0xcf);
@@ -86,7 +86,7 @@ fn draw(
 }
 
 /// A number at an axis whose largest is `largest`.
-fn tick(value: f64, largest: f64) -> String {
+pub(super) fn tick(value: f64, largest: f64) -> String {
     let decimals = if largest > 5.0 { 0 } else { 1 };
     format!("{value:.decimals$}")
 }

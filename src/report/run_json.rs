@@ -111,11 +111,7 @@ impl<D: Serialize> RunRecord<D> {
     /// cannot hold; in decisions such a number becomes null.
     pub fn to_json(&self) -> Result<Vec<u8>, ReportError> {
         self.check_finite()?;
-        let mut bytes = Vec::new();
-        let formatter = Lines { pretty: PrettyFormatter::new(), depth: 0 };
-        self.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, formatter))?;
-        bytes.push(b'\n');
-        Ok(bytes)
+        Ok(to_lines(self)?)
     }
 
     fn check_finite(&self) -> Result<(), ReportError> {
@@ -156,6 +152,16 @@ impl<D: DeserializeOwned> RunRecord<D> {
         }
         Ok(serde_json::from_slice(bytes)?)
     }
+}
+
+/// JSON whose third level and what is deeper stands in one line, with numbers rounded to
+/// a millionth.
+pub(super) fn to_lines(value: &impl Serialize) -> serde_json::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let formatter = Lines { pretty: PrettyFormatter::new(), depth: 0 };
+    value.serialize(&mut serde_json::Serializer::with_formatter(&mut bytes, formatter))?;
+    bytes.push(b'\n');
+    Ok(bytes)
 }
 
 /// Indents the first two levels and writes what is deeper in one line; rounds numbers.

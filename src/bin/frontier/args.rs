@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{bench, detect, explore, map};
+use crate::commands::{bench, compare, detect, explore, map};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -17,6 +17,8 @@ pub struct Args {
 pub enum Command {
     /// Explore a world with a simulated robot that knows nothing, and save the map.
     Explore(explore::Args),
+    /// Compare presets over worlds, starts and seeds.
+    Compare(compare::Args),
     /// Find the frontiers of a map as seen from a pose.
     Detect(detect::Args),
     /// Look at, convert and compare map_server maps.

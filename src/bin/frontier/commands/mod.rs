@@ -1,6 +1,7 @@
 //! One file for each command.
 
 pub mod bench;
+pub mod compare;
 pub mod detect;
 pub mod explore;
 pub mod map;
@@ -12,6 +13,7 @@ use crate::exit::Outcome;
 pub fn run(command: Command) -> anyhow::Result<Outcome> {
     match command {
         Command::Explore(args) => explore::run(&args),
+        Command::Compare(args) => compare::run(&args),
         Command::Detect(args) => detect::run(&args),
         Command::Bench(command) => bench::run(&command),
         Command::Map(command) => map::run(&command),

@@ -4,7 +4,7 @@ use super::recorder::Recorder;
 use anyhow::Context;
 use frontier_explorer::explore::ExplorerSettings;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
-use frontier_explorer::report::{Animation, HtmlReport, Picture, RunRecord, Theme};
+use frontier_explorer::report::{Animation, FrameLog, HtmlReport, Picture, RunRecord, Theme};
 use frontier_explorer::sim::SimRobot;
 use std::path::{Path, PathBuf};
 
@@ -50,7 +50,7 @@ impl RunFolder {
         self.save("map.png", &map_png)?;
         let animation =
             Animation { thresholds: &settings.thresholds, trajectory: &recorder.trajectory, theme: Theme::Clear };
-        let gif = animation.to_gif(recorder.frames.frames())?;
+        let gif = animation.to_gif(recorder.frames.iter().flat_map(FrameLog::frames))?;
         self.save("exploration.gif", &gif)?;
         let html = HtmlReport { run: record, map_png: &map_png, animation_gif: Some(&gif), theme: Theme::Clear };
         self.save("report.html", html.to_html()?.as_bytes())

@@ -2,7 +2,7 @@
 
 mod files;
 mod progress;
-mod recorder;
+pub mod recorder;
 
 use crate::exit::Outcome;
 use crate::simulation::{NamedWorld, Plan};
@@ -64,7 +64,7 @@ pub struct Args {
     quiet: bool,
 }
 
-fn robot_help() -> String {
+pub fn robot_help() -> String {
     format!("The robot: a YAML file, or one of the built-in robots: {}", inputs::robot_names())
 }
 
@@ -135,7 +135,7 @@ fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
 }
 
 /// A flag that Ctrl-C and SIGTERM raise.
-fn stop_flag() -> anyhow::Result<Arc<AtomicBool>> {
+pub fn stop_flag() -> anyhow::Result<Arc<AtomicBool>> {
     let flag = Arc::new(AtomicBool::new(false));
     let raised = Arc::clone(&flag);
     ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed)).context("cannot listen for Ctrl-C")?;

@@ -15,7 +15,8 @@ use std::time::Instant;
 /// A new point of the trajectory is remembered after this way, metres.
 const TRAJECTORY_STEP_M: f64 = 0.05;
 
-/// Remembers decisions, coverage, trajectory and frames.
+/// Remembers coverage, trajectory and goals, and for one's own report decisions and
+/// frames.
 pub struct Recorder {
     progress: Progress,
     stop: Arc<AtomicBool>,
@@ -29,8 +30,8 @@ pub struct Recorder {
     pub trajectory: Vec<Point>,
     /// The goals, and whether they failed.
     pub goals: Vec<PictureGoal>,
-    /// The animation's frames.
-    pub frames: FrameLog,
+    /// The animation's frames, if they are wanted.
+    pub frames: Option<FrameLog>,
     failed_before: usize,
 }
 
@@ -46,9 +47,15 @@ impl Recorder {
             series: Series::new(),
             trajectory: Vec::new(),
             goals: Vec::new(),
-            frames: FrameLog::default(),
+            frames: Some(FrameLog::default()),
             failed_before: 0,
         }
+    }
+
+    /// A silent one that counts decisions but keeps neither them nor frames: many runs
+    /// at once need little memory.
+    pub fn of_figures(stop: Arc<AtomicBool>) -> Self {
+        Self { frames: None, ..Self::new(Progress::Quiet, stop) }
     }
 
     /// The run as run.json holds it; it took `total_s` seconds of real time.
@@ -95,11 +102,11 @@ impl Recorder {
     }
 
     fn remember_frame(&mut self, explorer: &Explorer, observation: &Observation) {
-        let Some(map) = &observation.map else { return };
-        if !self.frames.wants(observation.stamp_s) {
+        let (Some(frames), Some(map)) = (&mut self.frames, &observation.map) else { return };
+        if !frames.wants(observation.stamp_s) {
             return;
         }
-        self.frames.push(Frame {
+        frames.push(Frame {
             time_s: observation.stamp_s,
             grid: Arc::clone(&map.grid),
             pose_in_map: observation.pose_in_map.as_ref().ok().copied(),
@@ -133,7 +140,9 @@ impl Watcher<SimRobot> for Recorder {
             if let (true, Some(goal)) = (chosen, record.goal) {
                 self.goals.push(PictureGoal { point_in_map: goal.position(), failed: false });
             }
-            self.decisions.push(record.clone());
+            if self.frames.is_some() {
+                self.decisions.push(record.clone());
+            }
         }
         self.remember_frame(explorer, observation);
         self.progress.show(&stats);

@@ -1,0 +1,195 @@
+//! `frontier compare`: every preset in every world from every start with every seed.
+
+mod progress;
+mod runner;
+mod shard;
+mod starts;
+mod tables;
+mod worlds;
+
+use super::explore::{robot_help, stop_flag};
+use crate::exit::Outcome;
+use crate::{inputs, output, values};
+use anyhow::{Context, bail};
+use frontier_explorer::config::{Preset, RobotConfig};
+use frontier_explorer::io::write_atomic;
+use frontier_explorer::report::{ComparedPreset, Comparison, ComparisonPlan};
+use progress::Progress;
+use runner::Runner;
+use shard::Shard;
+use starts::Starts;
+use std::path::{Path, PathBuf};
+use worlds::LoadedWorld;
+
+/// Arguments of `frontier compare`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Presets, by built-in name or YAML file, or `all` built-in ones.
+    #[arg(long, value_name = "PRESET,...", value_delimiter = ',', default_value = "all")]
+    presets: Vec<String>,
+    /// Worlds: map_server YAML files, or built-in names (office, museum, maze, warehouse).
+    #[arg(long, value_name = "WORLD,...", value_delimiter = ',', default_values_t = worlds::BUILT_IN_NAMES.map(str::to_owned))]
+    worlds: Vec<String>,
+    /// Where runs begin: a CSV file with the columns map,x_m,y_m, or `auto:N` for N open
+    /// spots far from each other. When left out: three places in each built-in world,
+    /// the most open spot of any other.
+    #[arg(long, value_name = "FILE.csv|auto:N", value_parser = starts::parse)]
+    starts: Option<Starts>,
+    /// Seeds: each decides every random number of a run.
+    #[arg(long, value_name = "SEED,...", value_delimiter = ',', default_value = "1")]
+    seeds: Vec<u64>,
+    /// The robot: a YAML file, or the name of a built-in robot.
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
+    robot: String,
+    /// End each run after this time of the simulation, seconds; it has then failed.
+    #[arg(long, value_name = "S", value_parser = values::positive_seconds, default_value = "7200")]
+    time_limit: f64,
+    /// Runs at the same time. As many as there are processors when left out.
+    #[arg(long, value_name = "N")]
+    jobs: Option<std::num::NonZeroUsize>,
+    /// Make only the I-th of N parts of the runs, from 1/N to N/N.
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard::parse)]
+    shard: Shard,
+    /// Make no runs: put together the JSON files of parts.
+    #[arg(
+        long,
+        value_name = "JSON",
+        num_args = 1..,
+        conflicts_with_all = ["presets", "worlds", "starts", "seeds", "robot", "time_limit", "jobs", "shard"]
+    )]
+    merge: Vec<PathBuf>,
+    /// Write all results as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write a line for each run as CSV.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write a report as one HTML file.
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Print nothing but errors.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Runs `frontier compare`.
+pub fn run(args: &Args) -> anyhow::Result<Outcome> {
+    let (comparison, expected) = if args.merge.is_empty() {
+        compare(args)?
+    } else {
+        let merged = merge(&args.merge)?;
+        let all = merged.plan.runs().len();
+        (merged, all)
+    };
+    write(args, &comparison)?;
+    if !args.quiet {
+        tables::print(&comparison)?;
+        let missing = expected.saturating_sub(comparison.runs.len());
+        if missing > 0 {
+            output::line(format_args!("{missing} of {expected} runs were not made"))?;
+        }
+    }
+    Ok(if comparison.runs.len() < expected { Outcome::Incomplete } else { Outcome::Done })
+}
+
+/// Makes the runs of a part; also tells how many they should be.
+fn compare(args: &Args) -> anyhow::Result<(Comparison, usize)> {
+    let robot = inputs::robot(&args.robot)?;
+    robot.validate().with_context(|| format!("robot {}", robot.name))?;
+    let presets = presets(args)?;
+    let starts = args.starts.as_ref().map_or_else(|| Ok(starts::Table::default()), starts::Table::of)?;
+    let worlds = worlds::load(&args.worlds, &starts, &robot)?;
+    let plan = plan(args, &robot, &presets, &worlds)?;
+    let runs: Vec<_> = plan.runs().into_iter().filter(|run| args.shard.holds(run.index)).collect();
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(args.jobs.map_or(0, std::num::NonZeroUsize::get))
+        .build()
+        .context("cannot start threads for the runs")?;
+    let progress = Progress::new(args.quiet, runs.len());
+    let runner = Runner { presets: &presets, robot: &robot, worlds: &worlds, stop: stop_flag()?, progress: &progress };
+    let made = pool.install(|| runner.make(&runs));
+    progress.finish();
+    Ok((Comparison { plan, runs: made? }, runs.len()))
+}
+
+/// The presets with the time limit; names must tell them apart.
+fn presets(args: &Args) -> anyhow::Result<Vec<Preset>> {
+    let mut presets: Vec<Preset> = Vec::new();
+    for name in &args.presets {
+        if name == "all" {
+            presets.extend(Preset::names().map(Preset::built_in).collect::<Result<Vec<_>, _>>()?);
+        } else {
+            presets.push(inputs::preset(name)?);
+        }
+    }
+    for preset in &mut presets {
+        preset.explorer.patience.time_limit_s = Some(args.time_limit);
+    }
+    unique("preset", presets.iter().map(|preset| preset.preset.as_str()))?;
+    Ok(presets)
+}
+
+/// Refuses names that are given twice: tables could not tell them apart.
+fn unique<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> anyhow::Result<()> {
+    let mut seen = std::collections::BTreeSet::new();
+    for name in names {
+        if !seen.insert(name) {
+            bail!("there are two {what}s with the name {name:?}: each must have its own");
+        }
+    }
+    Ok(())
+}
+
+fn plan(
+    args: &Args,
+    robot: &RobotConfig,
+    presets: &[Preset],
+    worlds: &[LoadedWorld],
+) -> anyhow::Result<ComparisonPlan> {
+    let mut seen = std::collections::BTreeSet::new();
+    if let Some(seed) = args.seeds.iter().find(|seed| !seen.insert(**seed)) {
+        bail!("the seed {seed} is given twice: each must be another one");
+    }
+    let compared = |preset: &Preset| {
+        let settings = serde_json::to_value(preset).context("cannot write the preset as JSON")?;
+        Ok(ComparedPreset { name: preset.preset.clone(), settings })
+    };
+    Ok(ComparisonPlan {
+        robot: robot.name.clone(),
+        time_limit_s: Some(args.time_limit),
+        presets: presets.iter().map(compared).collect::<anyhow::Result<_>>()?,
+        worlds: worlds.iter().map(|world| world.compared.clone()).collect(),
+        seeds: args.seeds.clone(),
+    })
+}
+
+/// Reads parts and puts them together.
+fn merge(files: &[PathBuf]) -> anyhow::Result<Comparison> {
+    let mut merged: Option<Comparison> = None;
+    for file in files {
+        let bytes = std::fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
+        let part = Comparison::from_json(&bytes).with_context(|| file.display().to_string())?;
+        match &mut merged {
+            None => merged = Some(part),
+            Some(merged) => merged.merge(part).with_context(|| file.display().to_string())?,
+        }
+    }
+    merged.context("there is nothing to merge")
+}
+
+/// Writes the files that are asked for; the JSON first, as all others follow from it.
+fn write(args: &Args, comparison: &Comparison) -> anyhow::Result<()> {
+    let save = |file: &Path, bytes: &[u8]| {
+        write_atomic(file, bytes).with_context(|| format!("cannot write {}", file.display()))
+    };
+    if let Some(file) = &args.json {
+        save(file, &comparison.to_json()?)?;
+    }
+    if let Some(file) = &args.csv {
+        save(file, comparison.to_csv().as_bytes())?;
+    }
+    if let Some(file) = &args.html {
+        save(file, comparison.to_html()?.as_bytes())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,108 @@
+//! The results as tables on standard output.
+
+use crate::output;
+use comfy_table::{CellAlignment, Table};
+use frontier_explorer::report::{Comparison, LiangTable, Measure, Spread, Summary};
+
+/// How to read the cells.
+const LEGEND: &str = "\
+Cells: median (25-75 %), below it [bootstrap 95 % interval of the median] and the runs that
+reached it. A run that does not reach a share counts as later than all that do (inf). Tend
+and distance are those of runs that ended complete with at least 99 %; all others failed.";
+
+/// Prints all tables.
+pub fn print(comparison: &Comparison) -> anyhow::Result<()> {
+    output::line(format_args!("{}", summaries(&comparison.summaries())))?;
+    output::line(format_args!("{LEGEND}"))?;
+    if comparison.plan.worlds.len() > 1 {
+        output::line(format_args!("\n{}", by_world(&comparison.summaries_by_world())))?;
+    }
+    if let Some(table) = LiangTable::of(comparison) {
+        output::line(format_args!("\nTable 1 of Liang, Wang, Li 2020 beside our museum, which is another building:"))?;
+        output::line(format_args!("{}", liang(&table)))?;
+        output::line(format_args!("{}", table.verdict()))?;
+    }
+    Ok(())
+}
+
+/// A row for each preset, over all worlds.
+fn summaries(summaries: &[Summary]) -> Table {
+    let head = ["preset", "runs", "failed"].into_iter().chain(Measure::ALL.map(Measure::title));
+    let mut table = table(head.chain(["collisions", "ms/decision"]));
+    for summary in summaries {
+        let mut row = vec![summary.preset.clone(), summary.runs.to_string(), summary.failed.to_string()];
+        row.extend(Measure::ALL.map(|measure| cell(&summary.measure(measure))));
+        let milliseconds = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |ms| format!("{ms:.1}"));
+        row.push(summary.collisions.to_string());
+        row.push(format!(
+            "{}\nmax {}",
+            milliseconds(summary.decision_median_ms),
+            milliseconds(summary.decision_max_ms)
+        ));
+        table.add_row(row);
+    }
+    table
+}
+
+/// A row for each preset in each world: medians alone.
+fn by_world(summaries: &[Summary]) -> Table {
+    let head = ["world", "preset", "runs", "failed"].into_iter().chain(Measure::ALL.map(Measure::title));
+    let mut table = table(head.chain(["coverage (%)"]));
+    for summary in summaries {
+        let world = summary.world.clone().unwrap_or_default();
+        let mut row = vec![world, summary.preset.clone(), summary.runs.to_string(), summary.failed.to_string()];
+        row.extend(Measure::ALL.map(|measure| median(&summary.measure(measure))));
+        row.push(summary.coverage.map_or_else(|| "-".to_owned(), |share| format!("{:.1}", share * 100.0)));
+        table.add_row(row);
+    }
+    table
+}
+
+fn liang(liang: &LiangTable) -> Table {
+    let mut table = table(["method", "preset", "paper (s)", "our Tend (s)", "our T99 (s)"]);
+    for row in &liang.rows {
+        let paper = format!("{:.0}", row.paper_s);
+        table.add_row([row.method.to_owned(), row.preset.to_owned(), paper, median(&row.tend), median(&row.t99)]);
+    }
+    table
+}
+
+fn table(head: impl IntoIterator<Item = &'static str>) -> Table {
+    let mut table = Table::new();
+    table.load_style(comfy_table::presets::NOTHING);
+    table.set_header(head);
+    for (i, column) in table.column_iter_mut().enumerate() {
+        column.set_cell_alignment(if i == 0 { CellAlignment::Left } else { CellAlignment::Right });
+    }
+    table
+}
+
+/// A spread in two lines.
+fn cell(spread: &Spread) -> String {
+    if spread.reached == 0 {
+        return format!("-\n0/{}", spread.of);
+    }
+    format!(
+        "{} ({}-{})\n[{}, {}] {}/{}",
+        number(spread.median),
+        number(spread.q25),
+        number(spread.q75),
+        number(spread.ci_low),
+        number(spread.ci_high),
+        spread.reached,
+        spread.of
+    )
+}
+
+/// The median alone, and how many reached it if not all did.
+fn median(spread: &Spread) -> String {
+    match (spread.reached, spread.of) {
+        (0, of) => format!("- 0/{of}"),
+        (reached, of) if reached < of => format!("{} {reached}/{of}", number(spread.median)),
+        _ => number(spread.median),
+    }
+}
+
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(|| "inf".to_owned(), |value| format!("{value:.0}"))
+}
