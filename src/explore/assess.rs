@@ -92,10 +92,9 @@ impl Surroundings<'_> {
         frontier.cells.iter().map(|&cell| self.robot.distance_to(self.info.center(cell))).fold(f64::INFINITY, f64::min)
     }
 
-    fn way_m(&self, goal: &Pose) -> f64 {
-        self.field
-            .and_then(|field| field.cost_cells(self.info.cell_at(goal.position())))
-            .map_or(f64::INFINITY, |cells| cells * self.info.resolution_m())
+    fn way_m(&self, goal: &Pose) -> Option<f64> {
+        let cells = self.field?.cost_cells(self.info.cell_at(goal.position()))?;
+        Some(cells * self.info.resolution_m())
     }
 }
 

@@ -136,7 +136,7 @@ pub struct DetectorSettings {
 }
 
 /// The explorer's settings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExplorerSettings {
     /// Where free ends and occupied begins.
@@ -159,23 +159,6 @@ pub struct ExplorerSettings {
     pub region: Option<Polygon>,
     /// Drive back to where the run began before it ends.
     pub return_to_start: bool,
-}
-
-impl Default for ExplorerSettings {
-    fn default() -> Self {
-        Self {
-            thresholds: Thresholds::default(),
-            detector: DetectorSettings::default(),
-            selection: SelectorConfig::default(),
-            planner: PlannerConfig::default(),
-            goal: GoalSettings::default(),
-            turns: TurnSettings::default(),
-            taboo: TabooConfig::default(),
-            patience: PatienceSettings::default(),
-            region: None,
-            return_to_start: false,
-        }
-    }
 }
 
 impl ExplorerSettings {

@@ -52,7 +52,7 @@ fn nearest_passable(costmap: &Costmap, from: Cell, radius_m: f64) -> Option<Cell
 }
 
 /// Cells in the order of a breadth-first flood over the cells that are `open`.
-pub fn flood<'a>(info: &'a GridInfo, from: Cell, open: impl Fn(Cell) -> bool + 'a) -> impl Iterator<Item = Cell> + 'a {
+fn flood<'a>(info: &'a GridInfo, from: Cell, open: impl Fn(Cell) -> bool + 'a) -> impl Iterator<Item = Cell> + 'a {
     let mut queue = VecDeque::from([from]);
     let mut seen = std::collections::HashSet::from([from]);
     std::iter::from_fn(move || {

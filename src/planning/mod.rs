@@ -17,7 +17,7 @@ pub use astar::Astar;
 pub use breadth_first::{BreadthFirst, BreadthFirstConfig};
 pub use d_star_lite::DStarLite;
 pub use dijkstra::Dijkstra;
-pub use endpoints::{ESCAPE_RADIUS_M, flood};
+pub use endpoints::ESCAPE_RADIUS_M;
 pub use field::PathField;
 pub use hybrid_astar::{HybridAstar, HybridAstarConfig, HybridHeuristic};
 

@@ -36,8 +36,9 @@ pub struct Candidate {
     pub distance_m: f64,
     /// Euclidean distance from the robot to the nearest frontier cell, metres.
     pub nearest_m: f64,
-    /// Cost of the cheapest way to the goal, in metres of open space.
-    pub way_m: f64,
+    /// Cost of the cheapest way to the goal, in metres of open space; present for the
+    /// strategies that need it.
+    pub way_m: Option<f64>,
 }
 
 /// What a strategy knows besides the candidates.
@@ -60,6 +61,11 @@ pub struct Score {
 pub trait GoalSelector: Send {
     /// The strategy's name in configuration files.
     fn name(&self) -> &'static str;
+
+    /// Whether [`Candidate::way_m`] is needed.
+    fn needs_ways(&self) -> bool {
+        false
+    }
 
     /// One score for each candidate, in the same order.
     fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score>;

@@ -29,6 +29,10 @@ impl GoalSelector for Mrtsp {
         "mrtsp"
     }
 
+    fn needs_ways(&self) -> bool {
+        true
+    }
+
     fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
         let legs = Legs::new(candidates);
         let mut nearest_first: Vec<usize> = (0..candidates.len()).collect();
@@ -55,7 +59,7 @@ struct Legs {
 impl Legs {
     fn new(candidates: &[Candidate]) -> Self {
         let gain_m = |c: &Candidate| c.size_m.max(LEAST_GAIN_M);
-        let first = candidates.iter().map(|c| c.way_m.max(c.distance_m) / gain_m(c)).collect();
+        let first = candidates.iter().map(|c| c.way_m.unwrap_or(c.distance_m) / gain_m(c)).collect();
         let between = candidates
             .iter()
             .flat_map(|a| {
@@ -164,7 +168,7 @@ mod tests {
                 radius_m: 0.0,
                 distance_m,
                 nearest_m: distance_m,
-                way_m: distance_m,
+                way_m: Some(distance_m),
             }
         };
         places.iter().map(at).collect()

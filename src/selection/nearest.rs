@@ -21,10 +21,10 @@ pub enum DistanceMeasure {
 impl DistanceMeasure {
     /// The distance of a candidate, metres.
     #[must_use]
-    pub const fn of_m(self, candidate: &Candidate) -> f64 {
+    pub fn of_m(self, candidate: &Candidate) -> f64 {
         match self {
             Self::Euclidean => candidate.distance_m,
-            Self::Path => candidate.way_m,
+            Self::Path => candidate.way_m.unwrap_or(candidate.distance_m),
         }
     }
 }
@@ -44,6 +44,10 @@ pub struct Nearest(pub NearestConfig);
 impl GoalSelector for Nearest {
     fn name(&self) -> &'static str {
         "nearest"
+    }
+
+    fn needs_ways(&self) -> bool {
+        self.0.distance == DistanceMeasure::Path
     }
 
     fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {

@@ -12,7 +12,7 @@ fn candidates() -> Vec<Candidate> {
         radius_m,
         distance_m: x,
         nearest_m: x,
-        way_m,
+        way_m: Some(way_m),
     };
     vec![at(1.0, 0.3, 0.15, 9.0), at(8.0, 6.0, 3.0, 8.0), at(3.0, 2.0, 1.2, 4.0)]
 }
