@@ -72,20 +72,23 @@ impl Costmap {
     #[must_use]
     pub fn inflate(grid: &OccupancyGrid, thresholds: &Thresholds, inflation: &Inflation) -> Self {
         let info = *grid.info();
+        // Maps are inflated every second: a cell is classified by looking it up.
+        let mut states = [CellState::Unknown; 256];
+        for value in i8::MIN..=i8::MAX {
+            states[usize::from(value as u8)] = thresholds.classify(value);
+        }
+        let state = |value: i8| states[usize::from(value as u8)];
         let data = grid.data();
-        let occupied = |i: usize| thresholds.classify(data[i]) == CellState::Occupied;
         let reach_cells = inflation.reach_cells(info.resolution_m());
-        let squared = squared_distance_cells_within(&info, reach_cells, occupied);
+        let squared = squared_distance_cells_within(&info, reach_cells, |i| state(data[i]) == CellState::Occupied);
         let table = inflation.table(info.resolution_m());
         let costs = data
             .iter()
             .zip(&squared)
             .map(|(&value, &squared)| {
                 let inflated = table.get(squared as usize).copied().unwrap_or(FREE_COST);
-                match thresholds.classify(value) {
-                    CellState::Unknown if inflated < INSCRIBED_COST => UNKNOWN_COST,
-                    _ => inflated,
-                }
+                let is_unknown = state(value) == CellState::Unknown && inflated < INSCRIBED_COST;
+                if is_unknown { UNKNOWN_COST } else { inflated }
             })
             .collect();
         Self { info, costs }
