@@ -8,15 +8,15 @@
 //!
 //! This is the oracle of the faster detectors.
 //!
-//! With [`Reachability::Textbook`] it keeps
-//! the paper's line 27 to the letter: the outer search enqueues any cell that has a
-//! free neighbour, unknown and occupied ones too, and so steps through walls one or
-//! two cells thick. One thing differs: the paper closes the cells of a collected
-//! frontier for the outer search (line 25), which then does not go on from them, so
-//! that what it reaches depends on the order of its queue. Here it does go on, and the
-//! result depends on the map and the robot's cell alone.
-//! With [`Reachability::WallsBlock`] a cell counts as open space only
-//! if it is connected to the robot's through the sides of free cells.
+//! With [`Reachability::Textbook`] it keeps the paper's line 27 to the letter: the outer
+//! search enqueues any cell that has a free neighbour, unknown and occupied ones too, and
+//! so steps through walls one or two cells thick. One thing differs: the paper closes the
+//! cells of a collected frontier for the outer search (line 25), which then does not go on
+//! from them, so that what it reaches depends on the order of its queue. Here it does go
+//! on, and the result depends on the map and the robot's cell alone.
+//!
+//! With [`Reachability::WallsBlock`] a cell counts as open space only if it is connected to
+//! the robot's through the sides of free cells.
 
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability, number};
 use crate::grid::{Cell, CellState, GridInfo, Neighbourhood, OccupancyGrid};
