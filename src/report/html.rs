@@ -96,7 +96,7 @@ impl<D: Serialize> HtmlReport<'_, D> {
 /// Why it ended and what it came to, in a sentence or two.
 fn headline<D>(run: &RunRecord<D>) -> String {
     format!(
-        "{} {:.1} % of the world was covered in {} and {:.1} m.",
+        "{}; {:.1} % of the world was covered in {} and {:.1} m.",
         run.end_message,
         run.coverage * 100.0,
         clock(run.sim_time_s),
