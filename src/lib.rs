@@ -16,6 +16,8 @@ pub mod planning;
 pub mod range;
 pub mod report;
 pub mod robot;
+pub mod ros;
 pub mod scan;
 pub mod selection;
 pub mod sim;
+pub mod tf;

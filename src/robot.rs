@@ -21,13 +21,15 @@ pub struct MapSnapshot {
 /// Why the robot does not know where it is.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PoseError {
-    /// No transform has connected the two frames so far.
-    #[error("no transform from {map_frame} to {base_frame} yet")]
+    /// No transform connects the two frames so far.
+    #[error("no transform from {map_frame} to {base_frame} yet: {why}")]
     NotYet {
         /// The map's frame.
         map_frame: String,
         /// The robot's frame.
         base_frame: String,
+        /// What is missing between them.
+        why: String,
     },
     /// The newest transform is too old to be believed.
     #[error("the transform from {map_frame} to {base_frame} is {age_s:.1} s old: must be at most {limit_s} s")]
@@ -58,6 +60,8 @@ pub enum NavigationState {
     Succeeded,
     /// Given up by the robot's navigation, with its reason.
     Aborted(String),
+    /// Nobody is there to carry it out, with what is missing: not a failure of the goal.
+    Unavailable(String),
     /// Taken away by somebody else, such as a person clicking a goal in RViz: not a
     /// failure of the goal.
     Preempted,

@@ -12,6 +12,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("range", &[]),
     ("geometry", &[]),
     ("scan", &["geometry"]),
+    ("tf", &["geometry"]),
     ("grid", &["geometry"]),
     // Floor 1: algorithms, which do not know each other.
     ("frontier", FLOOR_0),
@@ -27,28 +28,18 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("io", FLOORS_0_TO_2),
     ("sim", FLOORS_0_TO_2),
     ("report", FLOORS_0_TO_2_AND_IO),
+    // The nodes: sim_node is the simulator behind ROS.
+    ("ros", FLOORS_0_TO_2_IO_AND_SIM),
 ];
 
-const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid"];
-const FLOORS_0_TO_2: &[&str] = &[
+const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid", "tf"];
+/// The rooms of floors 0 to 2, and after them those of the rim that others may use.
+const DOWNWARDS: &[&str; 15] = &[
     "range",
     "geometry",
     "scan",
     "grid",
-    "frontier",
-    "selection",
-    "planning",
-    "control",
-    "robot",
-    "navigation",
-    "explore",
-    "config",
-];
-const FLOORS_0_TO_2_AND_IO: &[&str] = &[
-    "range",
-    "geometry",
-    "scan",
-    "grid",
+    "tf",
     "frontier",
     "selection",
     "planning",
@@ -58,7 +49,11 @@ const FLOORS_0_TO_2_AND_IO: &[&str] = &[
     "explore",
     "config",
     "io",
+    "sim",
 ];
+const FLOORS_0_TO_2: &[&str] = DOWNWARDS.split_at(13).0;
+const FLOORS_0_TO_2_AND_IO: &[&str] = DOWNWARDS.split_at(14).0;
+const FLOORS_0_TO_2_IO_AND_SIM: &[&str] = DOWNWARDS;
 
 /// Rooms of floors 0 to 2, in which no clock is read.
 const PURE: &[&str] = FLOORS_0_TO_2;

@@ -1,9 +1,12 @@
 //! Configuration files: raw serde structs that become validated types (floor 2).
 
+mod merge;
+mod node;
 mod preset;
 mod robot;
 mod robots;
 
-pub use preset::{NavigationSettings, Preset, PresetError};
+pub use node::{NodeParams, NodeParamsError, TurnBy};
+pub use preset::{Drive, NavigationSettings, Preset, PresetError};
 pub use robot::{CostmapConfig, LidarConfig, RobotConfig, RobotConfigError};
 pub use robots::{BUILTIN_ROBOTS, builtin_robot};

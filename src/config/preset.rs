@@ -40,10 +40,23 @@ pub struct Preset {
     pub navigation: NavigationSettings,
 }
 
+/// Who drives to a goal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Drive {
+    /// The stack's move_base, or what serves its action.
+    #[default]
+    MoveBase,
+    /// Our own planner and controller, with velocity commands.
+    Internal,
+}
+
 /// How goals are driven to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct NavigationSettings {
+    /// Who drives a robot behind ROS; the simulator always drives by itself.
+    pub drive: Drive,
     /// Tolerances and patience.
     pub navigator: NavigatorConfig,
     /// How paths become velocity commands.
@@ -90,9 +103,17 @@ impl Preset {
         if preset.preset.is_empty() {
             name.clone_into(&mut preset.preset);
         }
-        preset.explorer.validate()?;
-        preset.navigation.validate()?;
+        preset.validate()?;
         Ok(preset)
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`PresetError`] that names the key, the value and what is allowed.
+    pub fn validate(&self) -> Result<(), PresetError> {
+        self.explorer.validate()?;
+        Ok(self.navigation.validate()?)
     }
 }
 

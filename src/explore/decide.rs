@@ -2,11 +2,11 @@
 
 use super::assess::{Assessed, Surroundings, rank};
 use super::blacklist::{Blacklist, Taboo};
-use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position};
+use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position, SeenFrontier};
 use super::settings::ExplorerSettings;
 use super::standing::StandingSearch;
-use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector};
-use crate::geometry::{Body, Point, Pose};
+use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
+use crate::geometry::{Body, Path, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
 use crate::planning::{GlobalPlanner, PathField};
 use crate::robot::{MapSnapshot, Observation};
@@ -70,7 +70,9 @@ pub struct Lookout {
     thresholds: Thresholds,
     inflation: Inflation,
     standing: StandingSearch,
-    frontiers: Vec<Vec<Point>>,
+    tracker: FrontierTracker,
+    frontiers: Vec<SeenFrontier>,
+    path: Option<Path>,
     /// The costmap made last, with the stamp of its map.
     costmap: Option<(f64, Arc<Costmap>)>,
 }
@@ -85,14 +87,26 @@ impl Lookout {
             thresholds: settings.thresholds,
             inflation,
             standing: StandingSearch::default(),
+            tracker: FrontierTracker::new(),
             frontiers: Vec::new(),
+            path: None,
             costmap: None,
         }
     }
 
-    /// The frontiers of the last decision: cells' centres in the map frame.
-    pub fn frontiers(&self) -> &[Vec<Point>] {
+    /// Asks another planner for the way to a candidate, such as move_base's own.
+    pub fn set_planner(&mut self, planner: Box<dyn GlobalPlanner>) {
+        self.planner = planner;
+    }
+
+    /// The frontiers of the last decision.
+    pub fn frontiers(&self) -> &[SeenFrontier] {
         &self.frontiers
+    }
+
+    /// The way to the goal that was chosen last.
+    pub const fn path(&self) -> Option<&Path> {
+        self.path.as_ref()
     }
 
     /// Whether the robot's centre may be at a point of the map.
@@ -117,7 +131,11 @@ impl Lookout {
         let costmap = self.costmap(map);
         let scan = observation.scan.as_ref().map(|(lidar_in_map, scan)| (lidar_in_map, &**scan));
         let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&costmap), scan };
-        let frontiers = self.detector.detect(&input)?;
+        let mut frontiers = self.detector.detect(&input)?;
+        let names = self.tracker.update(&frontiers, grid.info()).ids;
+        for (frontier, name) in frontiers.iter_mut().zip(names) {
+            frontier.id = name.get();
+        }
         self.frontiers = in_metres(&frontiers, grid.info());
         // A robot that stands where it cannot reaches nothing: the recovery turn and
         // the next map may free it.
@@ -148,6 +166,7 @@ impl Lookout {
             match self.planner.plan(costmap, robot, &goal) {
                 Ok(path) => {
                     assessed.record.path_m = Some(path.length_m());
+                    self.path = Some(path);
                     assessed.record.status = CandidateStatus::Chosen;
                     return Some(Choice { goal, target: assessed.target });
                 }
@@ -173,8 +192,9 @@ impl Lookout {
     }
 }
 
-fn in_metres(frontiers: &[Frontier], info: &GridInfo) -> Vec<Vec<Point>> {
-    frontiers.iter().map(|f| f.cells.iter().map(|&cell| info.center(cell)).collect()).collect()
+fn in_metres(frontiers: &[Frontier], info: &GridInfo) -> Vec<SeenFrontier> {
+    let seen = |f: &Frontier| SeenFrontier { id: f.id, cells: f.cells.iter().map(|&cell| info.center(cell)).collect() };
+    frontiers.iter().map(seen).collect()
 }
 
 /// The nearest frontier that is seen from where the robot stands.

@@ -8,11 +8,12 @@
 use super::blacklist::Blacklist;
 use super::decide::{Decided, Lookout};
 use super::progress::ProgressMonitor;
-use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind};
+use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontier};
 use super::settings::{ExplorerSettings, SettingsError};
 use super::state::{Decision, Drive, Phase, State, has_ended};
-use crate::geometry::{Body, Point, Pose};
+use crate::geometry::{Body, Path, Point, Polygon, Pose};
 use crate::grid::Inflation;
+use crate::planning::GlobalPlanner;
 use crate::robot::{Command, CommandId, MapSnapshot, NavigationState, Observation};
 
 /// The longest that a turn may take, seconds; then the run goes on without it.
@@ -29,6 +30,7 @@ pub struct Explorer {
     started_s: Option<f64>,
     start_pose: Option<Pose>,
     pose_lost_since_s: Option<f64>,
+    navigation_lost_since_s: Option<f64>,
     map_lost_since_s: Option<f64>,
     recoveries_in_a_row: u32,
     empty_in_a_row: u32,
@@ -54,6 +56,7 @@ impl Explorer {
             started_s: None,
             start_pose: None,
             pose_lost_since_s: None,
+            navigation_lost_since_s: None,
             map_lost_since_s: None,
             recoveries_in_a_row: 0,
             empty_in_a_row: 0,
@@ -67,9 +70,9 @@ impl Explorer {
         &self.counts
     }
 
-    /// The frontiers of the last detection: cells' centres in metres of the map frame.
+    /// The frontiers of the last detection.
     #[must_use]
-    pub fn frontiers(&self) -> &[Vec<Point>] {
+    pub fn frontiers(&self) -> &[SeenFrontier] {
         self.lookout.frontiers()
     }
 
@@ -81,6 +84,28 @@ impl Explorer {
             State::Returning { goal, .. } => Some(*goal),
             _ => None,
         }
+    }
+
+    /// The way to the goal that was chosen last, as planned then.
+    #[must_use]
+    pub const fn path(&self) -> Option<&Path> {
+        self.lookout.path()
+    }
+
+    /// Explores only inside a region from now on, or everywhere again.
+    pub fn set_region(&mut self, region: Option<Polygon>) {
+        self.settings.region = region;
+    }
+
+    /// Only frontiers inside are explored, if there is one.
+    #[must_use]
+    pub const fn region(&self) -> Option<&Polygon> {
+        self.settings.region.as_ref()
+    }
+
+    /// Asks another planner for the way to a candidate, such as move_base's own.
+    pub fn set_planner(&mut self, planner: Box<dyn GlobalPlanner>) {
+        self.lookout.set_planner(planner);
     }
 
     /// One tick: from what is known to what shall be done. After the end it goes on
@@ -96,6 +121,10 @@ impl Explorer {
             Ok(pose) => {
                 self.pose_lost_since_s = None;
                 self.start_pose.get_or_insert(*pose);
+                if let Some(why) = self.unavailable(observation) {
+                    return self.pause_without_navigation(now_s, &why);
+                }
+                self.navigation_lost_since_s = None;
                 self.advance(observation, *pose)
             }
             Err(error) => return self.pause_without_pose(now_s, &error.to_string()),
@@ -128,6 +157,30 @@ impl Explorer {
         if decision.end.is_none() {
             decision.phase = Phase::WaitingForPose;
             decision.command = Command::Hold;
+        }
+        decision
+    }
+
+    /// Why nobody carries out the command under way, if that is so.
+    fn unavailable(&self, observation: &Observation) -> Option<String> {
+        let ours = self.state.command_id() == Some(observation.navigation.command);
+        match &observation.navigation.state {
+            NavigationState::Unavailable(why) if ours => Some(why.clone()),
+            _ => None,
+        }
+    }
+
+    /// Goes on asking while nobody is there to carry the command out: the goal is not
+    /// to blame, and its time stands still.
+    fn pause_without_navigation(&mut self, now_s: f64, why: &str) -> Decision {
+        let since_s = *self.navigation_lost_since_s.get_or_insert(now_s);
+        if now_s - since_s >= self.settings.patience.navigation_timeout_s {
+            self.end_now(EndReason::NoNavigation, now_s, why);
+        }
+        self.state.restart_timers(now_s);
+        let mut decision = self.state.decision(None);
+        if decision.end.is_none() {
+            decision.phase = Phase::WaitingForNavigation;
         }
         decision
     }

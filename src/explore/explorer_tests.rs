@@ -186,7 +186,11 @@ fn a_lost_pose_pauses_and_ends_only_when_it_lasts() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
     let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT, &BODY).unwrap();
     let mut lost = robot.observation();
-    lost.pose_in_map = Err(PoseError::NotYet { map_frame: "map".to_owned(), base_frame: "base_link".to_owned() });
+    lost.pose_in_map = Err(PoseError::NotYet {
+        map_frame: "map".to_owned(),
+        base_frame: "base_link".to_owned(),
+        why: "no frame".to_owned(),
+    });
     for tick in 0..59 {
         lost.stamp_s = f64::from(tick);
         let decision = explorer.step(&lost);

@@ -13,7 +13,9 @@ mod state;
 
 pub use blacklist::{Blacklist, Taboo, TabooConfig};
 pub use explorer::Explorer;
-pub use record::{CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position};
+pub use record::{
+    CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position, SeenFrontier,
+};
 pub use run::{Watcher, run};
 pub use settings::{DetectorSettings, ExplorerSettings, GoalSettings, PatienceSettings, SettingsError, TurnSettings};
 pub use standing::GoalHeading;

@@ -19,6 +19,15 @@ impl From<crate::geometry::Point> for Position {
     }
 }
 
+/// A frontier of the last detection.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenFrontier {
+    /// Stays while the frontier overlaps with what it was.
+    pub id: u64,
+    /// The centres of its cells in metres of the map frame.
+    pub cells: Vec<crate::geometry::Point>,
+}
+
 /// What became of one candidate in one decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -42,7 +51,7 @@ pub enum CandidateStatus {
 /// One frontier as a candidate for the next goal.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CandidateRecord {
-    /// The frontier's id.
+    /// The frontier's id: it stays while the frontier overlaps with what it was.
     pub id: u64,
     /// The frontier's representative point.
     pub target: Position,
@@ -87,6 +96,8 @@ pub enum EndReason {
     AllUnreachable,
     /// Frontiers are left, all of them outside the region to explore.
     OutsideRegion,
+    /// Nobody carried commands out for too long.
+    NoNavigation,
     /// No map came in time.
     NoMap,
     /// The robot did not know where it was for too long.
@@ -99,6 +110,31 @@ pub enum EndReason {
     Disconnected,
     /// The recording ended.
     RecordingEnded,
+}
+
+impl EndReason {
+    /// Its name, as `run.json` and the status topic write it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Complete => "complete",
+            Self::AllUnreachable => "all_unreachable",
+            Self::OutsideRegion => "outside_region",
+            Self::NoNavigation => "no_navigation",
+            Self::NoMap => "no_map",
+            Self::NoPose => "no_pose",
+            Self::TimeLimit => "time_limit",
+            Self::Interrupted => "interrupted",
+            Self::Disconnected => "disconnected",
+            Self::RecordingEnded => "recording_ended",
+        }
+    }
+
+    /// Whether all was done that could be asked for.
+    #[must_use]
+    pub const fn is_success(self) -> bool {
+        matches!(self, Self::Complete | Self::OutsideRegion | Self::RecordingEnded)
+    }
 }
 
 /// How many frontiers were left at the end, by the reason for leaving them.

@@ -95,6 +95,8 @@ pub struct PatienceSettings {
     pub map_timeout_s: f64,
     /// The run ends when the robot did not know where it was for so long, seconds.
     pub pose_timeout_s: f64,
+    /// The run ends when nobody carried its commands out for so long, seconds.
+    pub navigation_timeout_s: f64,
     /// The run ends after so long, seconds; never when absent.
     pub time_limit_s: Option<f64>,
 }
@@ -108,6 +110,7 @@ impl Default for PatienceSettings {
             settle_s: 5.0,
             map_timeout_s: 60.0,
             pose_timeout_s: 60.0,
+            navigation_timeout_s: 60.0,
             time_limit_s: None,
         }
     }
@@ -176,6 +179,7 @@ impl ExplorerSettings {
             ("patience.goal_timeout_s", patience.goal_timeout_s),
             ("patience.map_timeout_s", patience.map_timeout_s),
             ("patience.pose_timeout_s", patience.pose_timeout_s),
+            ("patience.navigation_timeout_s", patience.navigation_timeout_s),
             ("patience.time_limit_s", patience.time_limit_s.unwrap_or(1.0)),
             ("taboo.radius_m", taboo.radius_m),
             ("taboo.max_failures", f64::from(taboo.max_failures)),

@@ -15,6 +15,8 @@ pub enum Phase {
     WaitingForMap,
     /// Waits to know where it is.
     WaitingForPose,
+    /// Waits for somebody to carry its commands out.
+    WaitingForNavigation,
     /// Turns round.
     Turning,
     /// Drives to a goal.
@@ -79,6 +81,27 @@ pub enum State {
 }
 
 impl State {
+    /// The command under way.
+    pub const fn command_id(&self) -> Option<CommandId> {
+        match self {
+            Self::Turning { id, .. } | Self::Returning { id, .. } => Some(*id),
+            Self::Driving(drive) => Some(drive.id),
+            Self::Begin | Self::Settling { .. } | Self::Ended(_) => None,
+        }
+    }
+
+    /// Lets the time allowed for the command under way begin anew.
+    pub const fn restart_timers(&mut self, now_s: f64) {
+        match self {
+            Self::Turning { since_s, .. } | Self::Returning { since_s, .. } => *since_s = now_s,
+            Self::Driving(drive) => {
+                drive.since_s = now_s;
+                drive.progress.pause(now_s);
+            }
+            Self::Begin | Self::Settling { .. } | Self::Ended(_) => {}
+        }
+    }
+
     /// What this state asks of the robot.
     pub fn decision(&self, record: Option<DecisionRecord>) -> Decision {
         let (phase, command) = match self {

@@ -101,6 +101,11 @@ impl Costmap {
         (costs.len() == info.len()).then_some(Self { info, costs })
     }
 
+    /// A costmap of as many costs as the grid has cells.
+    pub(super) const fn of(info: GridInfo, costs: Vec<u8>) -> Self {
+        Self { info, costs }
+    }
+
     /// Size, resolution and place.
     #[must_use]
     pub const fn info(&self) -> &GridInfo {

@@ -9,6 +9,8 @@ mod costmap;
 mod distance;
 mod info;
 mod occupancy;
+mod patch;
+mod published;
 mod raytrace;
 mod state;
 
@@ -17,5 +19,6 @@ pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, UN
 pub use distance::{squared_distance_cells, squared_distance_cells_within};
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
 pub use occupancy::{Census, GridError, OccupancyGrid};
+pub use patch::{GridPatch, GridPatchError};
 pub use raytrace::{Traversal, traverse};
 pub use state::{CellState, ThresholdError, Thresholds};

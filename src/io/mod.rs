@@ -11,9 +11,13 @@ mod map_load;
 mod map_save;
 mod map_yaml;
 mod pgm;
+mod settings;
+mod worlds;
 
 pub use atomic::write_atomic;
 pub use error::MapError;
 pub use map_load::{LoadedMap, load_map, map_from_bytes};
 pub use map_save::{MapImage, SaveOptions, SavedPaths, save_map};
 pub use map_yaml::{MapMode, MapYaml};
+pub use settings::{SettingsFileError, file_stem, load_preset, load_robot};
+pub use worlds::{BUILT_IN_WORLDS, load_world};

@@ -1,86 +1,22 @@
-//! A robot made of the simulator's parts, behind the port that the explorer knows.
-//!
-//! The pose in the map is the true one, as of a SLAM that never errs; what a map
-//! shows is what the lidar has seen of the world, published once in a while. The map
-//! frame is the world's.
+//! The simulated robot behind the port that the explorer knows: a plant, and the
+//! navigator that drives it.
 
-use super::motion_filter::MotionFilter;
 use super::schedule::{Micros, Periodic, seconds};
-use super::{
-    Coverage, DiffDrive, Lidar, Mapper, MapperError, Odometry, SimConfig, SimConfigError, TargetArea, World, WorldError,
-};
+use super::{MapperError, Plant, SimConfig, SimError, SimStats, TargetArea, World};
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
-use crate::grid::{Costmap, Inflation, OccupancyGrid};
+use crate::grid::OccupancyGrid;
 use crate::navigation::{NavigationInput, Navigator};
 use crate::planning::Path;
 use crate::robot::{Command, MapSnapshot, Navigation, NavigationState, Observation, Robot, RobotError};
-use crate::scan::LaserScan;
-use serde::Serialize;
 use std::sync::Arc;
-
-/// Why a simulation cannot begin.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SimError {
-    /// A setting that cannot be.
-    #[error(transparent)]
-    Config(#[from] SimConfigError),
-    /// The robot cannot start where it shall.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// The map cannot be made.
-    #[error(transparent)]
-    Mapper(#[from] MapperError),
-}
-
-/// What a run has come to.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SimStats {
-    /// Simulated time, seconds.
-    pub sim_time_s: f64,
-    /// Length of the true path, metres.
-    pub distance_m: f64,
-    /// All turning either way, radians.
-    pub turned_rad: f64,
-    /// Contacts with solid cells.
-    pub collisions: usize,
-    /// Share of the target area known in the newest map, 0 to 1.
-    pub coverage: f64,
-    /// Area of all cells that the mapper has seen, square metres.
-    pub known_area_m2: f64,
-    /// The target area, square metres.
-    pub target_area_m2: f64,
-}
-
-/// A published map with the costmap made of it.
-#[derive(Debug)]
-struct Published {
-    stamp_s: f64,
-    grid: Arc<OccupancyGrid>,
-    costmap: Arc<Costmap>,
-}
 
 /// The simulated robot.
 pub struct SimRobot {
-    config: SimConfig,
-    inflation: Inflation,
-    world: Arc<World>,
-    body: DiffDrive,
-    lidar: Lidar,
-    mapper: Mapper,
+    plant: Plant,
     navigator: Navigator,
-    target: TargetArea,
-    coverage: Coverage,
-    now: Micros,
     tick: Periodic,
     control: Periodic,
-    sweep: Periodic,
-    publish: Periodic,
-    scan: (Pose, Arc<LaserScan>),
-    /// Whether the map shows that scan.
-    is_mapped: bool,
-    filter: MotionFilter,
-    published: Published,
     twist_command: Twist,
     navigation: Navigation,
 }
@@ -100,81 +36,38 @@ impl SimRobot {
         navigator: Navigator,
         start: Pose,
     ) -> Result<Self, SimError> {
-        config.validate()?;
-        let target = TargetArea::new(&world, &robot.footprint, &start)?;
-        let odometry = Odometry::new(config.odometry_noise, config.seed);
-        let body = DiffDrive::new(&world, &robot.footprint, robot.limits, start, odometry);
-        let mut lidar_config = robot.lidar;
-        lidar_config.noise_std_m = config.lidar_noise_std_m.unwrap_or(lidar_config.noise_std_m);
-        let mut lidar = Lidar::new(lidar_config, config.seed);
-        let mut mapper = Mapper::new(config.mapper, start.position(), world.info().origin_in_map().position())?;
-        let inflation = robot.inflation();
-        let lidar_pose = lidar.pose(&start);
-        let scan = (lidar_pose, Arc::new(lidar.sweep(&world, &lidar_pose, 0.0)));
-        mapper.integrate(&scan.0, &scan.1)?;
-        let mut filter = MotionFilter::default();
-        filter.accepts(&lidar_pose, 0.0, &config.mapper);
-        let published = inflated(mapper.publish()?, &config, &inflation, 0.0);
-        let mut coverage = Coverage::new(&target);
-        coverage.update(&published.grid);
-        let mut this = Self {
-            config,
-            inflation,
-            world,
-            body,
-            lidar,
-            mapper,
+        Ok(Self {
+            plant: Plant::new(world, robot, config, start)?,
             navigator,
-            target,
-            coverage,
-            now: 0,
             tick: Periodic::every_s(config.tick_period_s),
             control: Periodic::every_s(config.control_period_s),
-            sweep: Periodic::every_s(1.0 / lidar_config.rate_hz),
-            publish: Periodic::every_s(config.mapper.publish_period_s),
-            scan,
-            is_mapped: true,
-            filter,
-            published,
             twist_command: Twist::ZERO,
             navigation: Navigation { command: 0, state: NavigationState::Idle },
-        };
-        // What falls on time 0 has just been done.
-        this.sweep.is_due(0);
-        this.publish.is_due(0);
-        Ok(this)
+        })
     }
 
     /// What the run has come to so far.
     #[must_use]
     pub fn stats(&self) -> SimStats {
-        SimStats {
-            sim_time_s: seconds(self.now),
-            distance_m: self.body.distance_m(),
-            turned_rad: self.body.turned_rad(),
-            collisions: self.body.collisions(),
-            coverage: self.coverage.share(),
-            known_area_m2: self.mapper.known_area_m2(),
-            target_area_m2: self.target.area_m2(),
-        }
+        self.plant.stats()
     }
 
     /// The true pose in the world, whose frame is the map's.
     #[must_use]
     pub const fn pose(&self) -> Pose {
-        self.body.pose()
+        self.plant.pose()
     }
 
     /// Where the wheels believe the robot is, from its start at the origin.
     #[must_use]
     pub const fn pose_in_odom(&self) -> Pose {
-        self.body.pose_in_odom()
+        self.plant.pose_in_odom()
     }
 
     /// The newest published map.
     #[must_use]
     pub const fn map(&self) -> &Arc<OccupancyGrid> {
-        &self.published.grid
+        self.plant.map()
     }
 
     /// The path being followed, if any.
@@ -186,67 +79,40 @@ impl SimRobot {
     /// The world it lives in.
     #[must_use]
     pub const fn world(&self) -> &Arc<World> {
-        &self.world
+        self.plant.world()
     }
 
     /// The area that coverage is a share of.
     #[must_use]
     pub const fn target(&self) -> &TargetArea {
-        &self.target
+        self.plant.target()
     }
 
     /// Lets simulated time pass; what falls together happens in the order scan, map,
     /// command, so that each has the newest of the one before.
     fn advance_to(&mut self, end: Micros) -> Result<(), MapperError> {
         loop {
-            self.happen()?;
-            if self.now >= end {
+            self.plant.happen()?;
+            if self.plant.now() >= end {
                 return Ok(());
             }
-            if self.control.is_due(self.now) {
+            if self.control.is_due(self.plant.now()) {
                 self.steer();
             }
-            let next = end.min(self.control.next()).min(self.sweep.next()).min(self.publish.next());
-            self.body.drive(&self.world, &self.twist_command, seconds(next - self.now));
-            self.now = next;
+            let next = end.min(self.control.next()).min(self.plant.next());
+            self.plant.drive(&self.twist_command, next);
         }
-    }
-
-    /// The scan and the map that are due now.
-    fn happen(&mut self) -> Result<(), MapperError> {
-        let stamp_s = seconds(self.now);
-        if self.sweep.is_due(self.now) {
-            let pose = self.lidar.pose(&self.body.pose());
-            self.scan = (pose, Arc::new(self.lidar.sweep(&self.world, &pose, stamp_s)));
-            self.is_mapped = self.filter.accepts(&pose, stamp_s, &self.config.mapper);
-            if self.is_mapped {
-                self.mapper.integrate(&pose, &self.scan.1)?;
-            }
-        }
-        if self.publish.is_due(self.now) {
-            // A map shows all that was sensed before its stamp.
-            if !std::mem::replace(&mut self.is_mapped, true) {
-                self.mapper.integrate(&self.scan.0, &self.scan.1)?;
-            }
-            let grid = self.mapper.publish()?;
-            self.published.stamp_s = stamp_s;
-            // On known ground nothing changes for long, and inflating takes its time.
-            if grid != *self.published.grid {
-                self.published = inflated(grid, &self.config, &self.inflation, stamp_s);
-                self.coverage.update(&self.published.grid);
-            }
-        }
-        Ok(())
     }
 
     fn steer(&mut self) {
+        let (lidar_in_map, scan) = self.plant.scan();
         let input = NavigationInput {
-            stamp_s: seconds(self.now),
-            pose_in_map: self.body.pose(),
-            twist: self.body.twist(),
-            costmap: &self.published.costmap,
-            costmap_stamp_s: self.published.stamp_s,
-            scan: Some((&self.scan.0, &self.scan.1)),
+            stamp_s: self.plant.now_s(),
+            pose_in_map: self.plant.pose(),
+            twist: self.plant.twist(),
+            costmap: self.plant.costmap(),
+            costmap_stamp_s: self.plant.map_stamp_s(),
+            scan: Some((lidar_in_map, scan)),
         };
         (self.twist_command, self.navigation) = self.navigator.update(&input);
     }
@@ -258,15 +124,16 @@ impl Robot for SimRobot {
         let tick = self.tick.next();
         self.advance_to(tick).map_err(|error| RobotError::Disconnected(format!("the mapper stopped: {error}")))?;
         self.tick.is_due(tick);
+        let (lidar_in_map, scan) = self.plant.scan();
         Ok(Observation {
-            stamp_s: seconds(self.now),
-            pose_in_map: Ok(self.body.pose()),
+            stamp_s: seconds(self.plant.now()),
+            pose_in_map: Ok(self.plant.pose()),
             map: Some(MapSnapshot {
-                stamp_s: self.published.stamp_s,
-                grid: Arc::clone(&self.published.grid),
-                costmap: Some(Arc::clone(&self.published.costmap)),
+                stamp_s: self.plant.map_stamp_s(),
+                grid: Arc::clone(self.plant.map()),
+                costmap: Some(Arc::clone(self.plant.costmap())),
             }),
-            scan: Some((self.scan.0, Arc::clone(&self.scan.1))),
+            scan: Some((*lidar_in_map, Arc::clone(scan))),
             navigation: self.navigation.clone(),
         })
     }
@@ -275,11 +142,6 @@ impl Robot for SimRobot {
         self.navigator.command(command);
         Ok(())
     }
-}
-
-fn inflated(grid: OccupancyGrid, config: &SimConfig, inflation: &Inflation, stamp_s: f64) -> Published {
-    let costmap = Costmap::inflate(&grid, &config.thresholds, inflation);
-    Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) }
 }
 
 #[cfg(test)]

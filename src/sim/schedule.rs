@@ -12,7 +12,7 @@ pub(super) fn seconds(micros: Micros) -> f64 {
 }
 
 /// Seconds in microseconds, at least one.
-fn micros(seconds: f64) -> Micros {
+pub(super) fn micros(seconds: f64) -> Micros {
     ((seconds * 1e6).round() as Micros).max(1)
 }
 

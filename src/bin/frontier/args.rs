@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{bench, compare, detect, explore, map};
+use crate::commands::{bench, compare, demo, detect, explore, map};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -19,6 +19,8 @@ pub enum Command {
     Explore(explore::Args),
     /// Compare presets over worlds, starts and seeds.
     Compare(compare::Args),
+    /// Show the ROS nodes at work, with a master of their own: no ROS is needed.
+    Demo(demo::Args),
     /// Find the frontiers of a map as seen from a pose.
     Detect(detect::Args),
     /// Look at, convert and compare map_server maps.

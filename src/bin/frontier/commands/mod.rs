@@ -2,6 +2,7 @@
 
 pub mod bench;
 pub mod compare;
+pub mod demo;
 pub mod detect;
 pub mod explore;
 pub mod map;
@@ -14,6 +15,7 @@ pub fn run(command: Command) -> anyhow::Result<Outcome> {
     match command {
         Command::Explore(args) => explore::run(&args),
         Command::Compare(args) => compare::run(&args),
+        Command::Demo(args) => demo::run(&args),
         Command::Detect(args) => detect::run(&args),
         Command::Bench(command) => bench::run(&command),
         Command::Map(command) => map::run(&command),

@@ -12,7 +12,7 @@ use crate::exit::Outcome;
 use crate::{inputs, output, values};
 use anyhow::{Context, bail};
 use frontier_explorer::config::{Preset, RobotConfig};
-use frontier_explorer::io::write_atomic;
+use frontier_explorer::io::{BUILT_IN_WORLDS, write_atomic};
 use frontier_explorer::report::{ComparedPreset, Comparison, ComparisonPlan};
 use progress::Progress;
 use runner::Runner;
@@ -28,7 +28,7 @@ pub struct Args {
     #[arg(long, value_name = "PRESET,...", value_delimiter = ',', default_value = "all")]
     presets: Vec<String>,
     /// Worlds: map_server YAML files, or built-in names (office, museum, maze, warehouse).
-    #[arg(long, value_name = "WORLD,...", value_delimiter = ',', default_values_t = worlds::BUILT_IN_NAMES.map(str::to_owned))]
+    #[arg(long, value_name = "WORLD,...", value_delimiter = ',', default_values_t = BUILT_IN_WORLDS.map(str::to_owned))]
     worlds: Vec<String>,
     /// Where runs begin: a CSV file with the columns map,x_m,y_m, or `auto:N` for N open
     /// spots far from each other. When left out: three places in each built-in world,

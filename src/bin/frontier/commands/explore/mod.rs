@@ -10,8 +10,9 @@ use crate::{inputs, output, values};
 use anyhow::Context;
 use files::RunFolder;
 use frontier_explorer::config::{Preset, RobotConfig};
-use frontier_explorer::explore::{End, EndReason, run as explore};
+use frontier_explorer::explore::{End, run as explore};
 use frontier_explorer::geometry::Pose;
+use frontier_explorer::io::load_world;
 use frontier_explorer::sim::MapStyle;
 use progress::Progress;
 use recorder::Recorder;
@@ -23,8 +24,9 @@ use std::time::Instant;
 /// Arguments of `frontier explore`.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The world: a map_server YAML file. The built-in office when left out.
-    world: Option<PathBuf>,
+    /// The world: office, museum, maze, warehouse, or a map_server YAML file.
+    #[arg(default_value = "office")]
+    world: String,
     /// How to explore: a YAML file, or the name of a built-in preset.
     #[arg(long, value_name = "PRESET", default_value = "wfd")]
     config: String,
@@ -85,10 +87,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         return Ok(Outcome::Done);
     }
     let began = Instant::now();
-    let (truth, name) = match &args.world {
-        Some(file) => inputs::world(file)?,
-        None => inputs::default_world()?,
-    };
+    let (truth, name) = load_world(&args.world)?;
     let world = NamedWorld::new(name, &truth)?;
     let start = args.start.unwrap_or_else(|| world.world.most_open_spot());
     let plan = Plan {
@@ -146,7 +145,7 @@ pub fn stop_flag() -> anyhow::Result<Arc<AtomicBool>> {
 fn summarize(record: &frontier_explorer::report::RunRecord, folder: &RunFolder) -> anyhow::Result<()> {
     output::line(format_args!(
         "{}: {}; {:.1} % of the reachable area after {:.0} s and {:.1} m, {} goals, {} failed",
-        reason_name(record.end_reason),
+        record.end_reason.name(),
         record.end_message,
         100.0 * record.coverage,
         record.sim_time_s,
@@ -162,19 +161,6 @@ fn summarize(record: &frontier_explorer::report::RunRecord, folder: &RunFolder) 
     Ok(())
 }
 
-/// The name of an end, as run.json writes it.
-fn reason_name(reason: EndReason) -> String {
-    serde_json::to_value(reason).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
-}
-
 const fn outcome(end: &End) -> Outcome {
-    match end.reason {
-        EndReason::Complete | EndReason::OutsideRegion | EndReason::RecordingEnded => Outcome::Done,
-        EndReason::AllUnreachable
-        | EndReason::NoMap
-        | EndReason::NoPose
-        | EndReason::TimeLimit
-        | EndReason::Interrupted
-        | EndReason::Disconnected => Outcome::Incomplete,
-    }
+    if end.reason.is_success() { Outcome::Done } else { Outcome::Incomplete }
 }

@@ -111,14 +111,14 @@ impl Recorder {
             grid: Arc::clone(&map.grid),
             pose_in_map: observation.pose_in_map.as_ref().ok().copied(),
             trajectory_len: self.trajectory.len(),
-            frontier_points_in_map: explorer.frontiers().iter().flatten().copied().collect(),
+            frontier_points_in_map: explorer.frontiers().iter().flat_map(|f| &f.cells).copied().collect(),
             goal_in_map: explorer.goal().map(|goal| goal.position()),
         });
     }
 }
 
 impl Watcher<SimRobot> for Recorder {
-    fn before_step(&mut self, _: &Observation) {
+    fn before_step(&mut self, _: &mut Explorer, _: &Observation) {
         self.step_began = Instant::now();
     }
 

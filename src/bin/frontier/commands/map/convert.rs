@@ -28,23 +28,35 @@ pub struct Args {
 
 /// Kinds of image.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Format {
+pub enum Format {
     /// Binary greymap, as map_saver writes it.
     Pgm,
     /// Grey PNG.
     Png,
 }
 
+impl From<Format> for MapImage {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Pgm => Self::Pgm,
+            Format::Png => Self::Png,
+        }
+    }
+}
+
+/// Checks the two thresholds against each other.
+pub fn check_thresholds(free: i8, occ: i8) -> anyhow::Result<()> {
+    ensure!(free < occ, "--free {free} and --occ {occ}: --free must be below --occ");
+    Ok(())
+}
+
 /// Runs `frontier map convert`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
-    ensure!(args.free < args.occ, "--free {} and --occ {}: --free must be below --occ", args.free, args.occ);
+    check_thresholds(args.free, args.occ)?;
     let map = load_map(&args.input)?;
     let options = SaveOptions {
         thresholds: Thresholds { free_max: args.free, occupied_min: args.occ },
-        image: match args.format {
-            Format::Pgm => MapImage::Pgm,
-            Format::Png => MapImage::Png,
-        },
+        image: args.format.into(),
     };
     let saved = save_map(&args.output, &map.grid, &options)?;
     output::line(format_args!("{}", saved.yaml.display()))?;

@@ -4,6 +4,7 @@ mod convert;
 mod diff;
 mod info;
 mod picture;
+mod save;
 
 use crate::exit::Outcome;
 use clap::Subcommand;
@@ -15,6 +16,8 @@ pub enum Command {
     Info(info::Args),
     /// Write a map anew, as map_saver would save it.
     Convert(convert::Args),
+    /// Wait for a map on a ROS topic and save it, as map_saver does.
+    Save(save::Args),
     /// Compare two maps place by place; exit code 1 when they differ.
     Diff(diff::Args),
 }
@@ -24,6 +27,7 @@ pub fn run(command: &Command) -> anyhow::Result<Outcome> {
     match command {
         Command::Info(args) => info::run(args),
         Command::Convert(args) => convert::run(args),
+        Command::Save(args) => save::run(args),
         Command::Diff(args) => diff::run(args),
     }
 }

@@ -1,0 +1,327 @@
+//! The node's parameters: what a launch file or `rosparam load` may set, checked and
+//! laid over a preset.
+//!
+//! Beside the node's own names it knows those of explore_lite, so that its launch file
+//! works with another `pkg` and `type`.
+
+use super::merge::merge;
+use super::preset::{Preset, PresetError};
+use crate::geometry::{Point, Polygon};
+use crate::range::OutOfRange;
+use crate::selection::{ExploreLiteConfig, SelectorConfig};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+
+/// Parameters that cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NodeParamsError {
+    /// A name that is not known, or a value of the wrong kind.
+    #[error("parameter ~{path}: {message}")]
+    Wrong {
+        /// Where it stands, with dots between the levels.
+        path: String,
+        /// What is wrong and what is allowed.
+        message: String,
+    },
+    /// A number out of its range.
+    #[error("parameter ~{0}")]
+    OutOfRange(#[from] OutOfRange),
+    /// A region that is none.
+    #[error("parameter ~region: {0}")]
+    Region(String),
+    /// The settings that come out are no preset.
+    #[error("parameter ~{0}")]
+    Preset(#[from] PresetError),
+}
+
+/// Who makes the robot look round.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TurnBy {
+    /// Velocity commands of our own.
+    #[default]
+    CmdVel,
+    /// Goals of move_base at the robot's own place, a third of a turn apart.
+    MoveBase,
+}
+
+/// The node's parameters as they come, with their defaults.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct NodeParams {
+    /// The preset: a built-in name, or a YAML file. `wfd` when absent, and
+    /// `explore_lite` when one of explore_lite's weights is set.
+    pub config: Option<String>,
+    /// The robot: a built-in name, or a YAML file.
+    pub robot: String,
+    /// What reports call the settings, as `rosparam load` of a preset sets it.
+    pub preset: Option<String>,
+    /// Laid over the preset's `explorer`.
+    pub explorer: Option<Value>,
+    /// Laid over the preset's `navigation`.
+    pub navigation: Option<Value>,
+    /// The topic of the map.
+    pub map_topic: String,
+    /// The topic of its updates.
+    pub map_updates_topic: String,
+    /// The topic of a global costmap; our own inflation when empty.
+    pub global_costmap_topic: String,
+    /// The robot's frame.
+    pub base_frame: String,
+    /// How old the robot's transform may be, seconds.
+    pub transform_tolerance: f64,
+    /// Observations a second.
+    pub tick_rate: f64,
+    /// The action server that drives.
+    pub move_base: String,
+    /// Ask the server's `make_plan` whether there is a way, where it can be asked.
+    pub check_with_make_plan: bool,
+    /// Call the server's `clear_costmaps` when a goal failed.
+    pub clear_costmaps: bool,
+    /// Who makes the robot look round.
+    pub turn_by: TurnBy,
+    /// Corners `[x, y]` in metres of the map frame: only frontiers inside are explored.
+    pub region: Option<Vec<[f64; 2]>>,
+    /// Where the map is saved at the end, as map_saver's `-f`; not at all when empty.
+    pub map_file: String,
+    /// Leave when the exploration has ended.
+    pub exit_when_done: bool,
+    /// Publish markers for RViz.
+    pub visualize: bool,
+    /// explore_lite's name of `base_frame`.
+    pub robot_base_frame: Option<String>,
+    /// explore_lite's name of `map_topic`.
+    pub costmap_topic: Option<String>,
+    /// explore_lite's name of `map_updates_topic`.
+    pub costmap_updates_topic: Option<String>,
+    /// explore_lite: decisions a second on the way to a goal.
+    pub planner_frequency: Option<f64>,
+    /// explore_lite: seconds without progress after which a goal is given up.
+    pub progress_timeout: Option<f64>,
+    /// explore_lite: weight of the distance.
+    pub potential_scale: Option<f64>,
+    /// explore_lite: weight of the turn.
+    pub orientation_scale: Option<f64>,
+    /// explore_lite: weight of the size.
+    pub gain_scale: Option<f64>,
+    /// explore_lite: smaller frontiers are dropped, metres.
+    pub min_frontier_size: Option<f64>,
+    /// explore_lite (ROS 2): drive back to the start at the end.
+    pub return_to_init: Option<bool>,
+}
+
+impl Default for NodeParams {
+    fn default() -> Self {
+        Self {
+            config: None,
+            robot: "turtlebot2".to_owned(),
+            preset: None,
+            explorer: None,
+            navigation: None,
+            map_topic: "map".to_owned(),
+            map_updates_topic: "map_updates".to_owned(),
+            global_costmap_topic: String::new(),
+            base_frame: "base_link".to_owned(),
+            transform_tolerance: 0.5,
+            tick_rate: 5.0,
+            move_base: "move_base".to_owned(),
+            check_with_make_plan: false,
+            clear_costmaps: true,
+            turn_by: TurnBy::default(),
+            region: None,
+            map_file: String::new(),
+            exit_when_done: false,
+            visualize: true,
+            robot_base_frame: None,
+            costmap_topic: None,
+            costmap_updates_topic: None,
+            planner_frequency: None,
+            progress_timeout: None,
+            potential_scale: None,
+            orientation_scale: None,
+            gain_scale: None,
+            min_frontier_size: None,
+            return_to_init: None,
+        }
+    }
+}
+
+impl NodeParams {
+    /// Reads a tree of parameters. explore_lite's names of topics and frames take the
+    /// place of ours; `region` may be empty for none.
+    ///
+    /// # Errors
+    /// [`NodeParamsError`] with the parameter, its value and what is allowed.
+    pub fn from_tree(tree: Value) -> Result<Self, NodeParamsError> {
+        let mut params: Self = from_value(tree)?;
+        let replace = |ours: &mut String, theirs: &mut Option<String>| {
+            if let Some(name) = theirs.take() {
+                *ours = name;
+            }
+        };
+        replace(&mut params.base_frame, &mut params.robot_base_frame);
+        replace(&mut params.map_topic, &mut params.costmap_topic);
+        replace(&mut params.map_updates_topic, &mut params.costmap_updates_topic);
+        params.region = params.region.filter(|corners| !corners.is_empty());
+        params.validate()?;
+        Ok(params)
+    }
+
+    fn validate(&self) -> Result<(), NodeParamsError> {
+        OutOfRange::unless_positive("transform_tolerance", self.transform_tolerance)?;
+        let rate = self.tick_rate;
+        OutOfRange::unless((0.1..=50.0).contains(&rate), "tick_rate", rate, "within 0.1 to 50 observations a second")?;
+        let frequency = self.planner_frequency.unwrap_or(1.0);
+        OutOfRange::unless_not_negative("planner_frequency", frequency)?;
+        OutOfRange::unless_positive("progress_timeout", self.progress_timeout.unwrap_or(1.0))?;
+        for (name, text) in
+            [("map_topic", &self.map_topic), ("base_frame", &self.base_frame), ("move_base", &self.move_base)]
+        {
+            if text.is_empty() {
+                let message = "is empty: must be a name".to_owned();
+                return Err(NodeParamsError::Wrong { path: name.to_owned(), message });
+            }
+        }
+        Ok(())
+    }
+
+    /// The name or the file of the preset that the other parameters are laid over.
+    #[must_use]
+    pub fn base_preset(&self) -> &str {
+        let weighed = [self.potential_scale, self.orientation_scale, self.gain_scale, self.min_frontier_size];
+        let default = if weighed.iter().any(Option::is_some) { "explore_lite" } else { "wfd" };
+        self.config.as_deref().unwrap_or(default)
+    }
+
+    /// The settings that the parameters make of a preset.
+    ///
+    /// # Errors
+    /// [`NodeParamsError`] with the parameter, its value and what is allowed.
+    pub fn apply_to(&self, base: Preset) -> Result<Preset, NodeParamsError> {
+        let mut tree = serde_json::to_value(base)
+            .map_err(|e| NodeParamsError::Wrong { path: "config".to_owned(), message: e.to_string() })?;
+        let mut over = Map::new();
+        let parts = [("explorer", &self.explorer), ("navigation", &self.navigation)];
+        over.extend(parts.into_iter().filter_map(|(name, part)| Some((name.to_owned(), part.clone()?))));
+        if let Some(name) = &self.preset {
+            over.insert("preset".to_owned(), Value::String(name.clone()));
+        }
+        merge(&mut tree, Value::Object(over));
+        let mut preset: Preset = from_value(tree)?;
+        self.set_explore_lite(&mut preset);
+        if let Some(corners) = &self.region {
+            let corners = corners.iter().map(|&[x, y]| Point::new(x, y)).collect();
+            let region = Polygon::new(corners).map_err(|e| NodeParamsError::Region(e.to_string()))?;
+            preset.explorer.region = Some(region);
+        }
+        preset.validate()?;
+        Ok(preset)
+    }
+
+    fn set_explore_lite(&self, preset: &mut Preset) {
+        let explorer = &mut preset.explorer;
+        if let SelectorConfig::ExploreLite(weights) = &mut explorer.selection {
+            let ExploreLiteConfig { potential_scale, orientation_scale, gain_scale } = weights;
+            for (ours, theirs) in [
+                (potential_scale, self.potential_scale),
+                (orientation_scale, self.orientation_scale),
+                (gain_scale, self.gain_scale),
+            ] {
+                *ours = theirs.unwrap_or(*ours);
+            }
+        }
+        if let Some(min_size_m) = self.min_frontier_size {
+            explorer.detector.min_size_m = min_size_m;
+        }
+        if let Some(timeout_s) = self.progress_timeout {
+            explorer.patience.progress_timeout_s = timeout_s;
+        }
+        if let Some(frequency) = self.planner_frequency.filter(|&f| f > 0.0) {
+            explorer.goal.reconsider_period_s = Some(1.0 / frequency);
+        }
+        explorer.return_to_start = self.return_to_init.unwrap_or(explorer.return_to_start);
+    }
+}
+
+fn from_value<T: for<'de> Deserialize<'de>>(tree: Value) -> Result<T, NodeParamsError> {
+    serde_path_to_error::deserialize(tree).map_err(|error| {
+        let path = error.path().to_string();
+        let path = if path == "." { String::new() } else { path };
+        NodeParamsError::Wrong { path, message: error.into_inner().to_string() }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn preset(tree: Value) -> Result<Preset, NodeParamsError> {
+        let params = NodeParams::from_tree(tree)?;
+        params.apply_to(Preset::built_in(params.base_preset()).unwrap())
+    }
+
+    #[test]
+    fn without_parameters_it_is_the_built_in_preset() {
+        assert_eq!(preset(json!({})).unwrap(), Preset::built_in("wfd").unwrap());
+        let alghfeli = preset(json!({"config": "alghfeli", "tick_rate": 10})).unwrap();
+        assert_eq!(alghfeli, Preset::built_in("alghfeli").unwrap());
+    }
+
+    #[test]
+    fn single_settings_are_laid_over_the_preset() {
+        let changed = preset(json!({"explorer": {"turns": {"at_goal": false}, "patience": {"time_limit_s": 600}}}));
+        let changed = changed.unwrap();
+        let mut expected = Preset::built_in("wfd").unwrap();
+        expected.explorer.turns.at_goal = false;
+        expected.explorer.patience.time_limit_s = Some(600.0);
+        assert_eq!(changed, expected);
+        let selection = json!({"explorer": {"selection": {"name": "mrtsp"}}});
+        assert!(matches!(preset(selection).unwrap().explorer.selection, SelectorConfig::Mrtsp(..)));
+    }
+
+    #[test]
+    fn every_built_in_preset_may_come_from_rosparam_load() {
+        for name in Preset::names() {
+            let whole = Preset::built_in(name).unwrap();
+            assert_eq!(preset(serde_json::to_value(&whole).unwrap()).unwrap(), whole, "{name}");
+        }
+    }
+
+    #[test]
+    fn the_launch_file_of_explore_lite_is_understood() {
+        let params = json!({
+            "robot_base_frame": "base_footprint", "costmap_topic": "map", "costmap_updates_topic": "map_updates",
+            "visualize": true, "planner_frequency": 0.5, "progress_timeout": 25.0, "potential_scale": 2.0,
+            "orientation_scale": 0.0, "gain_scale": 1.5, "transform_tolerance": 0.3, "min_frontier_size": 0.6,
+        });
+        let read = NodeParams::from_tree(params.clone()).unwrap();
+        assert_eq!((read.base_frame.as_str(), read.map_topic.as_str()), ("base_footprint", "map"));
+        let explorer = preset(params).unwrap().explorer;
+        let weights = ExploreLiteConfig { potential_scale: 2.0, orientation_scale: 0.0, gain_scale: 1.5 };
+        assert_eq!(explorer.selection, SelectorConfig::ExploreLite(weights));
+        assert_eq!(explorer.goal.reconsider_period_s, Some(2.0));
+        assert_eq!((explorer.patience.progress_timeout_s, explorer.detector.min_size_m), (25.0, 0.6));
+    }
+
+    #[test]
+    fn mistakes_are_named_with_what_is_allowed() {
+        let error = |tree: Value| preset(tree).unwrap_err().to_string();
+        let unknown = error(json!({"base_frme": "x"}));
+        assert!(
+            unknown.starts_with("parameter ~base_frme: unknown field") && unknown.contains("base_frame"),
+            "{unknown}"
+        );
+        let kind = error(json!({"tick_rate": "fast"}));
+        assert!(kind.starts_with("parameter ~tick_rate: invalid type: string \"fast\""), "{kind}");
+        let range = error(json!({"tick_rate": 0}));
+        assert_eq!(range, "parameter ~tick_rate is 0: must be within 0.1 to 50 observations a second");
+        let nested = error(json!({"explorer": {"goal": {"search_radius_m": -1.0}}}));
+        assert_eq!(nested, "parameter ~explorer.goal.search_radius_m is -1: must be finite and > 0");
+        let deep = error(json!({"explorer": {"goal": {"serch": 1}}}));
+        assert!(deep.starts_with("parameter ~explorer.goal.serch: unknown field `serch`"), "{deep}");
+        let region = error(json!({"region": [[0, 0], [1, 1]]}));
+        assert!(region.starts_with("parameter ~region: "), "{region}");
+        assert_eq!(error(json!({"map_topic": ""})), "parameter ~map_topic: is empty: must be a name");
+    }
+}

@@ -1,0 +1,117 @@
+//! A rectangle of new values: `map_msgs/OccupancyGridUpdate`.
+
+use super::{Cell, OccupancyGrid};
+
+/// A rectangle of cells, lowest row first, to be laid on a grid.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GridPatch {
+    /// Its lower left cell.
+    pub corner: Cell,
+    /// Cells to the right.
+    pub width: u32,
+    /// Cells upward.
+    pub height: u32,
+    /// `width * height` values, row by row.
+    pub data: Vec<i8>,
+}
+
+/// A patch that does not fit.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum GridPatchError {
+    /// Width and height do not tell how many values there are.
+    #[error("an update of {width} x {height} cells with {values} values: must be width times height")]
+    Length {
+        /// As given.
+        width: u32,
+        /// As given.
+        height: u32,
+        /// How many values came.
+        values: usize,
+    },
+    /// It reaches over the border.
+    #[error(
+        "an update of {width} x {height} cells at ({x}, {y}) does not lie in the grid of {grid_width} x {grid_height}"
+    )]
+    Outside {
+        /// Lower left cell.
+        x: i32,
+        /// Lower left cell.
+        y: i32,
+        /// As given.
+        width: u32,
+        /// As given.
+        height: u32,
+        /// The grid's.
+        grid_width: usize,
+        /// The grid's.
+        grid_height: usize,
+    },
+}
+
+impl OccupancyGrid {
+    /// Lays a rectangle of new values on the grid.
+    ///
+    /// # Errors
+    /// [`GridPatchError`] when it does not fit; the grid is then as before.
+    pub fn apply(&mut self, patch: &GridPatch) -> Result<(), GridPatchError> {
+        let GridPatch { corner: Cell { x, y }, width, height, .. } = *patch;
+        if u64::from(width) * u64::from(height) != patch.data.len() as u64 {
+            return Err(GridPatchError::Length { width, height, values: patch.data.len() });
+        }
+        let (grid_width, grid_height) = (self.info().width(), self.info().height());
+        let fits = |from: i32, length: u32, limit: usize| {
+            usize::try_from(from).is_ok_and(|from| from + length as usize <= limit)
+        };
+        if !(fits(x, width, grid_width) && fits(y, height, grid_height)) {
+            return Err(GridPatchError::Outside { x, y, width, height, grid_width, grid_height });
+        }
+        if width == 0 {
+            return Ok(());
+        }
+        let (left, bottom, width) = (x as usize, y as usize, width as usize);
+        let rows = self.data_mut().chunks_exact_mut(grid_width).skip(bottom);
+        for (row, new) in rows.zip(patch.data.chunks_exact(width)) {
+            if let Some(part) = row.get_mut(left..left + width) {
+                part.copy_from_slice(new);
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+    use crate::grid::GridInfo;
+
+    fn grid() -> OccupancyGrid {
+        OccupancyGrid::filled(GridInfo::new(4, 3, 0.05, Pose::default()).unwrap(), -1)
+    }
+
+    fn patch(x: i32, y: i32, width: u32, height: u32) -> GridPatch {
+        GridPatch { corner: Cell::new(x, y), width, height, data: (0..(width * height) as i8).collect() }
+    }
+
+    #[test]
+    fn rows_do_not_shear() {
+        let mut grid = grid();
+        grid.apply(&patch(1, 1, 2, 2)).unwrap();
+        assert_eq!(grid.data(), [-1, -1, -1, -1, -1, 0, 1, -1, -1, 2, 3, -1]);
+        grid.apply(&patch(0, 0, 0, 2)).unwrap();
+        grid.apply(&patch(0, 0, 4, 3)).unwrap();
+        assert_eq!(grid.data(), [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+    }
+
+    #[test]
+    fn what_does_not_fit_changes_nothing() {
+        let mut unchanged = grid();
+        for (x, y, w, h) in [(-1, 0, 2, 2), (3, 0, 2, 1), (0, 2, 1, 2), (0, -1, 1, 1), (i32::MAX, 0, 1, 1)] {
+            assert!(matches!(unchanged.apply(&patch(x, y, w, h)), Err(GridPatchError::Outside { .. })), "{x} {y}");
+        }
+        let short = GridPatch { data: vec![0; 3], ..patch(0, 0, 2, 2) };
+        let error = unchanged.apply(&short).unwrap_err().to_string();
+        assert_eq!(error, "an update of 2 x 2 cells with 3 values: must be width times height");
+        assert_eq!(unchanged, grid());
+    }
+}

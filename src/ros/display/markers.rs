@@ -1,0 +1,167 @@
+//! Frontiers as markers: their cells, the points that stand for them, and the order in
+//! which they come. A frontier keeps its marker while it overlaps with what it was, so
+//! that nothing flickers; the namespace is explore_lite's.
+
+use super::super::convert::{header, point_message};
+use super::super::msg::geometry_msgs::{Point as PointMessage, Pose as PoseMessage, Quaternion, Vector3};
+use super::super::msg::std_msgs::ColorRGBA;
+use super::super::msg::visualization_msgs::{Marker, MarkerArray};
+use crate::explore::{CandidateRecord, CandidateStatus, DecisionRecord, SeenFrontier};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The cells of a frontier.
+const CELLS: &str = "frontiers";
+/// The point that stands for it.
+const TARGETS: &str = "targets";
+/// Its place in the order.
+const ORDER: &str = "order";
+/// So many places are written out.
+const NUMBERED: usize = 20;
+
+/// What is shown now, to take away what is not any more.
+#[derive(Clone, Debug, Default)]
+pub struct FrontierMarkers {
+    shown: BTreeSet<(&'static str, i32)>,
+}
+
+impl FrontierMarkers {
+    /// The markers of a decision, and the removal of those that it does not have.
+    pub fn update(
+        &mut self,
+        record: &DecisionRecord,
+        frontiers: &[SeenFrontier],
+        resolution_m: f64,
+        frame: &str,
+        stamp_s: f64,
+    ) -> MarkerArray {
+        let cells: BTreeMap<u64, &SeenFrontier> = frontiers.iter().map(|f| (f.id, f)).collect();
+        let mut markers = Vec::new();
+        let mut rank = 0;
+        for candidate in &record.candidates {
+            let color = color(candidate.status);
+            if let Some(frontier) = cells.get(&candidate.id) {
+                markers.push(cubes(frontier, resolution_m, color.clone()));
+            }
+            markers.push(sphere(candidate, color));
+            if matches!(candidate.status, CandidateStatus::Chosen | CandidateStatus::Eligible) {
+                rank += 1;
+                if rank <= NUMBERED {
+                    markers.push(number(candidate, rank));
+                }
+            }
+        }
+        let now: BTreeSet<(&'static str, i32)> = markers.iter().map(|(ns, marker)| (*ns, marker.id)).collect();
+        let gone = self
+            .shown
+            .difference(&now)
+            .map(|&(ns, id)| (ns, Marker { id, action: i32::from(Marker::DELETE), ..Marker::default() }));
+        let all: Vec<(&'static str, Marker)> = gone.collect::<Vec<_>>().into_iter().chain(markers).collect();
+        self.shown = now;
+        let finish = |(ns, mut marker): (&'static str, Marker)| {
+            marker.header = header(frame, stamp_s);
+            marker.ns = ns.to_owned();
+            marker
+        };
+        MarkerArray { markers: all.into_iter().map(finish).collect() }
+    }
+}
+
+/// Chosen green, possible blue, left alone red, out of reach grey, elsewhere violet.
+const fn color(status: CandidateStatus) -> ColorRGBA {
+    let (r, g, b) = match status {
+        CandidateStatus::Chosen | CandidateStatus::AlreadyThere => (0.1, 0.8, 0.2),
+        CandidateStatus::Eligible => (0.1, 0.4, 1.0),
+        CandidateStatus::Taboo => (0.9, 0.1, 0.1),
+        CandidateStatus::NoPath | CandidateStatus::Unreachable => (0.5, 0.5, 0.5),
+        CandidateStatus::OutsideRegion => (0.6, 0.3, 0.8),
+    };
+    ColorRGBA { r, g, b, a: 1.0 }
+}
+
+/// A marker's id from a frontier's: 32 bits serve four billion frontiers.
+const fn marker_id(id: u64) -> i32 {
+    (id & 0x7fff_ffff) as i32
+}
+
+fn marker(kind: u8, id: u64, color: ColorRGBA) -> Marker {
+    Marker {
+        id: marker_id(id),
+        type_: i32::from(kind),
+        action: i32::from(Marker::ADD),
+        pose: at(0.0, 0.0, 0.0),
+        color,
+        ..Marker::default()
+    }
+}
+
+fn cubes(frontier: &SeenFrontier, resolution_m: f64, color: ColorRGBA) -> (&'static str, Marker) {
+    let points: Vec<PointMessage> = frontier.cells.iter().map(|cell| point_message(cell.x, cell.y)).collect();
+    let scale = Vector3 { x: resolution_m, y: resolution_m, z: 0.02 };
+    (CELLS, Marker { scale, points, ..marker(Marker::CUBE_LIST, frontier.id, color) })
+}
+
+fn sphere(candidate: &CandidateRecord, color: ColorRGBA) -> (&'static str, Marker) {
+    let size = if candidate.status == CandidateStatus::Chosen { 0.3 } else { 0.15 };
+    let pose = at(candidate.target.x, candidate.target.y, 0.05);
+    let scale = Vector3 { x: size, y: size, z: size };
+    (TARGETS, Marker { pose, scale, ..marker(Marker::SPHERE, candidate.id, color) })
+}
+
+fn number(candidate: &CandidateRecord, rank: usize) -> (&'static str, Marker) {
+    let pose = at(candidate.target.x, candidate.target.y, 0.35);
+    let black = ColorRGBA { r: 0.05, g: 0.05, b: 0.05, a: 1.0 };
+    let scale = Vector3 { z: 0.35, ..Vector3::default() };
+    let text = rank.to_string();
+    (ORDER, Marker { pose, scale, text, ..marker(Marker::TEXT_VIEW_FACING, candidate.id, black) })
+}
+
+const fn at(x: f64, y: f64, z: f64) -> PoseMessage {
+    PoseMessage { position: PointMessage { x, y, z }, orientation: Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explore::Position;
+    use crate::geometry::{Point, Pose};
+
+    fn candidate(id: u64, status: CandidateStatus) -> CandidateRecord {
+        CandidateRecord {
+            id,
+            target: Position { x: id as f64, y: 0.0 },
+            goal: None,
+            size_cells: 1,
+            size_m: 0.05,
+            distance_m: 1.0,
+            path_m: None,
+            scores: BTreeMap::new(),
+            status,
+        }
+    }
+
+    fn show(markers: &mut FrontierMarkers, candidates: Vec<CandidateRecord>) -> Vec<(String, i32, i32)> {
+        let frontiers: Vec<SeenFrontier> =
+            candidates.iter().map(|c| SeenFrontier { id: c.id, cells: vec![Point::new(c.id as f64, 0.0)] }).collect();
+        let record = DecisionRecord { time_s: 1.0, pose: Pose::default(), candidates, goal: None, why: String::new() };
+        let array = markers.update(&record, &frontiers, 0.05, "map", 1.0);
+        assert!(array.markers.iter().all(|m| m.header.frame_id == "map"));
+        array.markers.iter().map(|m| (m.ns.clone(), m.id, m.action)).collect()
+    }
+
+    #[test]
+    fn what_is_gone_is_deleted_and_what_stays_keeps_its_id() {
+        let mut markers = FrontierMarkers::default();
+        let both = vec![candidate(7, CandidateStatus::Chosen), candidate(9, CandidateStatus::Taboo)];
+        let first = show(&mut markers, both);
+        let expected = [("frontiers", 7), ("targets", 7), ("order", 7), ("frontiers", 9), ("targets", 9)];
+        assert_eq!(first, expected.map(|(ns, id)| (ns.to_owned(), id, 0)));
+        let second = show(&mut markers, vec![candidate(9, CandidateStatus::Eligible)]);
+        let gone: Vec<_> =
+            second.iter().filter(|m| m.2 == i32::from(Marker::DELETE)).map(|m| (m.0.as_str(), m.1)).collect();
+        assert_eq!(gone, [("frontiers", 7), ("order", 7), ("targets", 7)]);
+        assert!(second.contains(&("order".to_owned(), 9, 0)));
+        let third = show(&mut markers, Vec::new());
+        assert!(third.len() == 3 && third.iter().all(|m| m.2 == i32::from(Marker::DELETE)));
+        assert!(show(&mut markers, Vec::new()).is_empty());
+    }
+}

@@ -1,0 +1,9 @@
+//! What the node shows: markers for RViz, the candidates with their scores, its status.
+
+mod frontier_array;
+mod markers;
+mod status;
+
+pub use frontier_array::frontier_array;
+pub use markers::FrontierMarkers;
+pub use status::{StatusInput, diagnostics, region_message, status, status_sentence};

@@ -1,0 +1,86 @@
+//! From settings to connections.
+
+use super::{ExploreNodeError, Settings};
+use crate::config::{Drive, TurnBy};
+use crate::frontier::DetectorKind;
+use crate::navigation::Navigator;
+use crate::ros::bell::Bell;
+use crate::ros::map_feed::{MapFeed, MapReader};
+use crate::ros::move_base::MoveBase;
+use crate::ros::node::Node;
+use crate::ros::pilot::{Pilot, PilotConfig};
+use crate::ros::robot::{Connections, RosRobot, RosRobotConfig};
+use crate::ros::scan_feed::ScanFeed;
+use crate::ros::transforms::Transforms;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
+
+/// What the node shares with the robot that it is connected to.
+pub struct Connected {
+    /// The newest map.
+    pub maps: MapReader,
+    /// The frame of the map.
+    pub map_frame: Arc<Mutex<String>>,
+    /// Whether the exploration is to rest.
+    pub paused: Arc<AtomicBool>,
+    /// Rung when something has come.
+    pub bell: Arc<Bell>,
+    /// Whether no move_base is asked to drive.
+    pub drives_itself: bool,
+}
+
+/// Connects to the robot that the settings describe.
+pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected), ExploreNodeError> {
+    let Settings { params, preset, robot } = settings;
+    let (explorer, navigation) = (&preset.explorer, &preset.navigation);
+    let bell = Arc::<Bell>::default();
+    let transforms = Arc::new(Transforms::listen(node));
+    let map = MapFeed::listen(node, &params.map_topic, &params.map_updates_topic, &bell);
+    let costmap = (!params.global_costmap_topic.is_empty()).then(|| {
+        let topic = &params.global_costmap_topic;
+        MapFeed::listen(node, topic, &format!("{topic}_updates"), &bell)
+    });
+    let drives_itself = navigation.drive == Drive::Internal;
+    let needs_scans = drives_itself || explorer.detector.name == DetectorKind::Fast;
+    let scans = needs_scans.then(|| Arc::new(ScanFeed::listen(node, "scan")));
+    let move_base = if drives_itself { None } else { Some(MoveBase::connect(node, &params.move_base, &bell)?) };
+    let body = robot.body();
+    let navigator =
+        Navigator::new(navigation.navigator, explorer.planner.build(&body), navigation.controller.build(&body));
+    let pilot_config = PilotConfig {
+        base_frame: params.base_frame.clone(),
+        transform_tolerance_s: params.transform_tolerance,
+        control_period_s: navigation.navigator.control_period_s,
+        body,
+        drives_to_goals: drives_itself,
+    };
+    let pilot = Pilot::start(node, pilot_config, navigator, Arc::clone(&transforms), scans.clone())?;
+    let connected = Connected {
+        maps: map.reader(),
+        map_frame: Arc::default(),
+        paused: Arc::default(),
+        bell: Arc::clone(&bell),
+        drives_itself,
+    };
+    let config = RosRobotConfig {
+        base_frame: params.base_frame.clone(),
+        transform_tolerance_s: params.transform_tolerance,
+        tick_period_s: 1.0 / params.tick_rate,
+        turn_by_goals: params.turn_by == TurnBy::MoveBase,
+        clear_costmaps: params.clear_costmaps,
+        thresholds: explorer.thresholds,
+        inflation: robot.inflation(),
+    };
+    let parts = Connections {
+        map,
+        costmap,
+        transforms,
+        scans,
+        move_base,
+        pilot,
+        bell,
+        map_frame: Arc::clone(&connected.map_frame),
+        paused: Arc::clone(&connected.paused),
+    };
+    Ok((RosRobot::new(node, config, parts), connected))
+}

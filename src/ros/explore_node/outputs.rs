@@ -1,0 +1,158 @@
+//! The topics that the node offers, and the thread that keeps its status fresh.
+
+use super::{ExploreNodeError, Settings};
+use crate::explore::{Counts, DecisionRecord, Explorer, Phase};
+use crate::geometry::Path;
+use crate::ros::convert;
+use crate::ros::display::{
+    FrontierMarkers, StatusInput, diagnostics, frontier_array, region_message, status, status_sentence,
+};
+use crate::ros::map_feed::MapReader;
+use crate::ros::msg::diagnostic_msgs::DiagnosticArray;
+use crate::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
+use crate::ros::msg::geometry_msgs::{PolygonStamped, PoseStamped};
+use crate::ros::msg::nav_msgs;
+use crate::ros::msg::visualization_msgs::MarkerArray;
+use crate::ros::node::Node;
+use rosrust::Publisher;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+/// From one status to the next, real time.
+const STATUS_PERIOD: Duration = Duration::from_secs(1);
+/// From one line of progress to the next.
+const LINE_PERIOD: Duration = Duration::from_secs(15);
+
+/// Everything that the node publishes.
+pub struct Outputs {
+    node: Node,
+    /// Name of the preset.
+    pub preset: String,
+    frontiers: Option<Publisher<MarkerArray>>,
+    array: Publisher<FrontierArray>,
+    goal: Publisher<PoseStamped>,
+    path: Publisher<nav_msgs::Path>,
+    region: Publisher<PolygonStamped>,
+    status: Arc<Mutex<ExplorationStatus>>,
+    now: Publisher<ExplorationStatus>,
+    markers: Mutex<FrontierMarkers>,
+}
+
+impl Outputs {
+    /// Offers the topics and begins to tell the status.
+    ///
+    /// # Errors
+    /// [`ExploreNodeError`] when a topic cannot be offered.
+    pub fn offer(
+        node: &Node,
+        settings: &Settings,
+        maps: MapReader,
+        paused: &Arc<AtomicBool>,
+    ) -> Result<Self, ExploreNodeError> {
+        let preset = settings.preset.preset.clone();
+        let first = StatusInput {
+            stamp_s: node.now_s(),
+            frame: "map",
+            phase: Phase::WaitingForMap,
+            paused: false,
+            preset: &preset,
+            message: "waiting for the first map",
+            end: None,
+            elapsed_s: 0.0,
+            distance_m: 0.0,
+            known_area_m2: 0.0,
+            free_area_m2: 0.0,
+            frontiers: 0,
+            counts: &Counts::default(),
+            map_age_s: f64::NAN,
+        };
+        let shared = Arc::new(Mutex::new(status(&first)));
+        let now = node.publish_latched("~status")?;
+        let health = node.publish("/diagnostics", 5)?;
+        let (theirs, told, owner, rests) = (Arc::clone(&shared), now.clone(), node.clone(), Arc::clone(paused));
+        std::thread::spawn(move || tell(&owner, &theirs, &told, &health, &maps, &rests));
+        Ok(Self {
+            frontiers: if settings.params.visualize { Some(node.publish_latched("~frontiers")?) } else { None },
+            array: node.publish_latched("~frontier_array")?,
+            goal: node.publish_latched("~goal")?,
+            path: node.publish_latched("~path")?,
+            region: node.publish_latched("~region")?,
+            node: node.clone(),
+            preset,
+            status: shared,
+            now,
+            markers: Mutex::default(),
+        })
+    }
+
+    /// Shows a decision.
+    pub fn show_decision(&self, record: &DecisionRecord, explorer: &Explorer, resolution_m: f64, frame: &str) {
+        let stamp_s = self.node.now_s();
+        // Nobody who listens is no error of ours.
+        if let Some(frontiers) = &self.frontiers {
+            let mut markers = self.markers.lock().unwrap_or_else(PoisonError::into_inner);
+            let _ = frontiers.send(markers.update(record, explorer.frontiers(), resolution_m, frame, stamp_s));
+        }
+        let _ = self.array.send(frontier_array(record, frame, stamp_s));
+        if let Some(goal) = &record.goal {
+            let _ = self.goal.send(convert::stamped(goal, frame, stamp_s));
+        }
+        if let Some(path) = explorer.path() {
+            self.show_path(path, frame);
+        }
+    }
+
+    /// Shows the path to the goal.
+    pub fn show_path(&self, path: &Path, frame: &str) {
+        let _ = self.path.send(convert::path_message(path, frame, self.node.now_s()));
+    }
+
+    /// Shows the region.
+    pub fn show_region(&self, explorer: &Explorer, frame: &str) {
+        let _ = self.region.send(region_message(explorer.region(), frame, self.node.now_s()));
+    }
+
+    /// Sets the status that is told once a second.
+    pub fn set_status(&self, new: ExplorationStatus) {
+        *self.status.lock().unwrap_or_else(PoisonError::into_inner) = new;
+    }
+
+    /// Tells the status at once.
+    pub fn tell_status(&self) {
+        let _ = self.now.send(self.status.lock().unwrap_or_else(PoisonError::into_inner).clone());
+    }
+}
+
+/// Tells the status once a second, also while the exploration waits or rests.
+fn tell(
+    node: &Node,
+    status: &Mutex<ExplorationStatus>,
+    now: &Publisher<ExplorationStatus>,
+    health: &Publisher<DiagnosticArray>,
+    maps: &MapReader,
+    paused: &AtomicBool,
+) {
+    let (mut next, mut next_line) = (Instant::now(), Instant::now() + LINE_PERIOD);
+    while node.is_ok() {
+        std::thread::sleep(Duration::from_millis(100));
+        if Instant::now() < next {
+            continue;
+        }
+        next = Instant::now() + STATUS_PERIOD;
+        let mut fresh = status.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let ended = fresh.phase == ExplorationStatus::ENDED;
+        fresh.header.stamp = node.stamp();
+        fresh.map_age_s = maps.newest().map_or(f64::NAN, |map| map.arrived.elapsed().as_secs_f64());
+        if paused.load(Ordering::Relaxed) && !ended {
+            fresh.phase = ExplorationStatus::PAUSED;
+            "resting: publish true on explore/resume to go on".clone_into(&mut fresh.message);
+        }
+        let _ = health.send(diagnostics(node.name(), &fresh));
+        if Instant::now() >= next_line && !ended {
+            next_line = Instant::now() + LINE_PERIOD;
+            node.log().info(status_sentence(&fresh));
+        }
+        let _ = now.send(fresh);
+    }
+}

@@ -1,0 +1,169 @@
+//! Looks on while the node explores: shows every decision and keeps the figures of the
+//! status.
+
+use super::controls::Controls;
+use super::outputs::Outputs;
+use crate::explore::{CandidateStatus, Counts, Decision, End, Explorer, Phase, Watcher};
+use crate::geometry::Pose;
+use crate::grid::Thresholds;
+use crate::robot::Observation;
+use crate::ros::display::{StatusInput, status};
+use crate::ros::msg::frontier_explorer::ExplorationStatus;
+use crate::ros::node::Node;
+use crate::ros::robot::RosRobot;
+
+/// Steps shorter than this are noise of the localisation, metres.
+const STEP_M: f64 = 0.02;
+
+/// The watcher of one run.
+pub struct NodeWatcher<'a> {
+    node: &'a Node,
+    outputs: &'a Outputs,
+    controls: &'a Controls,
+    began_s: Option<f64>,
+    now_s: f64,
+    last_pose: Option<Pose>,
+    distance_m: f64,
+    map_version: u64,
+    known_area_m2: f64,
+    free_area_m2: f64,
+    frontiers: usize,
+    frame: String,
+    message: String,
+    region_shown: bool,
+    failed_before: usize,
+}
+
+impl<'a> NodeWatcher<'a> {
+    /// A watcher of a run that begins now.
+    pub fn new(node: &'a Node, outputs: &'a Outputs, controls: &'a Controls) -> Self {
+        Self {
+            node,
+            outputs,
+            controls,
+            began_s: None,
+            now_s: 0.0,
+            last_pose: None,
+            distance_m: 0.0,
+            map_version: 0,
+            known_area_m2: 0.0,
+            free_area_m2: 0.0,
+            frontiers: 0,
+            frame: "map".to_owned(),
+            message: "waiting for the first map".to_owned(),
+            region_shown: false,
+            failed_before: 0,
+        }
+    }
+
+    /// Tells the end, and returns the last status.
+    pub fn finish(&mut self, explorer: &Explorer, end: &End) -> ExplorationStatus {
+        end.message.clone_into(&mut self.message);
+        let last = self.status(Phase::Ended, explorer.counts(), Some(end));
+        self.outputs.set_status(last.clone());
+        self.outputs.tell_status();
+        last
+    }
+
+    fn status(&self, phase: Phase, counts: &Counts, end: Option<&End>) -> ExplorationStatus {
+        status(&StatusInput {
+            stamp_s: self.node.now_s(),
+            frame: &self.frame,
+            phase,
+            paused: false,
+            preset: &self.outputs.preset,
+            message: &self.message,
+            end,
+            elapsed_s: self.began_s.map_or(0.0, |began_s| self.now_s - began_s),
+            distance_m: self.distance_m,
+            known_area_m2: self.known_area_m2,
+            free_area_m2: self.free_area_m2,
+            frontiers: self.frontiers,
+            counts,
+            map_age_s: f64::NAN,
+        })
+    }
+
+    fn count_way(&mut self, observation: &Observation) {
+        let Ok(pose) = observation.pose_in_map else { return };
+        let step_m = self.last_pose.map_or(f64::INFINITY, |last| pose.distance_to(last.position()));
+        if step_m >= STEP_M {
+            // The first pose is no way.
+            if step_m.is_finite() {
+                self.distance_m += step_m;
+            }
+            self.last_pose = Some(pose);
+        }
+    }
+
+    fn count_area(&mut self, robot: &RosRobot) {
+        let Some(map) = robot.received_map() else { return };
+        if map.version != self.map_version {
+            self.map_version = map.version;
+            map.frame.clone_into(&mut self.frame);
+            let census = map.grid.census(&Thresholds::default());
+            let cell_m2 = map.grid.info().cell_area_m2();
+            self.known_area_m2 = census.known() as f64 * cell_m2;
+            self.free_area_m2 = census.free as f64 * cell_m2;
+        }
+    }
+}
+
+/// One sentence about a phase in which nothing is decided.
+const fn phase_sentence(phase: Phase) -> Option<&'static str> {
+    match phase {
+        Phase::WaitingForMap => Some("waiting for a map that shows the newest sights"),
+        Phase::WaitingForPose => Some("waiting to know where the robot is"),
+        Phase::WaitingForNavigation => Some("waiting for move_base"),
+        Phase::Turning => Some("turning round to look about"),
+        Phase::Returning => Some("driving back to the start"),
+        Phase::Driving | Phase::Ended => None,
+    }
+}
+
+impl Watcher<RosRobot> for NodeWatcher<'_> {
+    fn before_step(&mut self, explorer: &mut Explorer, observation: &Observation) {
+        self.now_s = observation.stamp_s;
+        self.began_s.get_or_insert(self.now_s);
+        if let Some(region) = self.controls.new_region() {
+            explorer.set_region(region);
+            self.region_shown = false;
+        }
+        if !self.region_shown {
+            self.region_shown = true;
+            self.outputs.show_region(explorer, &self.frame);
+        }
+    }
+
+    fn after_step(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+        self.count_way(observation);
+        self.count_area(robot);
+        let counts = explorer.counts();
+        if counts.goals_failed > self.failed_before {
+            self.node.log().warn(format_args!("{} of {} goals failed", counts.goals_failed, counts.goals_sent));
+        }
+        self.failed_before = counts.goals_failed;
+        if let Some(sentence) = phase_sentence(decision.phase) {
+            sentence.clone_into(&mut self.message);
+        }
+        if let (Some(record), Some(map)) = (&decision.record, robot.received_map()) {
+            self.frontiers = record.candidates.len();
+            record.why.clone_into(&mut self.message);
+            let is_new_goal =
+                record.candidates.iter().any(|c| c.status == CandidateStatus::Chosen) && record.goal == explorer.goal();
+            if is_new_goal || record.goal.is_none() {
+                self.node.log().once(crate::ros::log::Level::Info, &record.why);
+            }
+            self.outputs.show_decision(record, explorer, map.grid.info().resolution_m(), &map.frame);
+        }
+        if let Some(path) = robot.path() {
+            self.outputs.show_path(&path, &self.frame);
+        }
+        let new = self.status(decision.phase, counts, decision.end.as_ref());
+        self.outputs.set_status(new);
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.controls.stop_requested()
+    }
+}

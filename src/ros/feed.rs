@@ -1,0 +1,137 @@
+//! Listening to a topic: on a thread of its own, and again when it falls silent.
+//!
+//! rosrust's `subscribe` blocks as long as any publisher of the topic hangs, does not
+//! connect anew after a connection broke, and a callback that panics ends its
+//! subscription without a word. Here a thread subscribes, watches the age of the
+//! messages, and a panic ends the node with an error.
+
+use super::node::{Node, describe};
+use rosrust::Message;
+use std::collections::{BTreeSet, HashMap};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::Thread;
+use std::time::{Duration, Instant};
+
+/// The longest time from one attempt to the next.
+const LONGEST_SILENCE: Duration = Duration::from_secs(120);
+
+struct Shared {
+    closed: AtomicBool,
+    /// Milliseconds since the feed was opened; 0 is never.
+    last_message_ms: AtomicU64,
+    opened: Instant,
+    /// The nodes that have sent, or that connected to send.
+    callers: Mutex<BTreeSet<String>>,
+}
+
+/// A topic that is listened to until this is dropped.
+pub struct Feed {
+    shared: Arc<Shared>,
+    keeper: Thread,
+}
+
+impl Feed {
+    /// Begins to listen. After `silence` without a message the subscription is made
+    /// anew, then after twice that, and so on.
+    pub(super) fn open<T: Message>(
+        node: &Node,
+        topic: &str,
+        queue: usize,
+        silence: Duration,
+        on_message: impl Fn(T, &str) + Send + Sync + 'static,
+    ) -> Self {
+        let shared = Arc::new(Shared {
+            closed: AtomicBool::new(false),
+            last_message_ms: AtomicU64::new(0),
+            opened: Instant::now(),
+            callers: Mutex::default(),
+        });
+        let (theirs, node, topic) = (Arc::clone(&shared), node.clone(), topic.to_owned());
+        let keeper = std::thread::spawn(move || keep(&node, &topic, queue, silence, &theirs, &Arc::new(on_message)));
+        Self { shared, keeper: keeper.thread().clone() }
+    }
+
+    /// The nodes that publish it, as far as they have connected.
+    #[must_use]
+    pub fn callers(&self) -> BTreeSet<String> {
+        self.shared.callers.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// How long ago the last message came, if one came.
+    #[must_use]
+    pub fn age(&self) -> Option<Duration> {
+        self.shared.age()
+    }
+}
+
+impl Drop for Feed {
+    fn drop(&mut self) {
+        self.shared.closed.store(true, Ordering::Relaxed);
+        self.keeper.unpark();
+    }
+}
+
+impl Shared {
+    fn age(&self) -> Option<Duration> {
+        match self.last_message_ms.load(Ordering::Relaxed) {
+            0 => None,
+            at_ms => Some(self.opened.elapsed().saturating_sub(Duration::from_millis(at_ms))),
+        }
+    }
+
+    fn heard(&self) {
+        let now_ms = u64::try_from(self.opened.elapsed().as_millis()).unwrap_or(u64::MAX);
+        self.last_message_ms.store(now_ms.max(1), Ordering::Relaxed);
+    }
+
+    fn met(&self, caller: &str) {
+        let mut callers = self.callers.lock().unwrap_or_else(PoisonError::into_inner);
+        if !callers.contains(caller) {
+            callers.insert(caller.to_owned());
+        }
+    }
+}
+
+/// Holds a subscription and makes it anew when the topic is silent for too long.
+fn keep<T: Message>(
+    node: &Node,
+    topic: &str,
+    queue: usize,
+    silence: Duration,
+    shared: &Arc<Shared>,
+    on_message: &Arc<impl Fn(T, &str) + Send + Sync + 'static>,
+) {
+    let mut patience = silence;
+    while !shared.closed.load(Ordering::Relaxed) && node.is_ok() {
+        let (heard, met) = (Arc::clone(shared), Arc::clone(shared));
+        let (handler, guarded, name) = (Arc::clone(on_message), node.clone(), topic.to_owned());
+        let subscriber = node.ros().subscribe_with_ids_and_headers(
+            topic,
+            queue,
+            move |message: T, caller: &str| {
+                heard.heard();
+                heard.met(caller);
+                if catch_unwind(AssertUnwindSafe(|| handler(message, caller))).is_err() {
+                    guarded.fail(&format!("a message of {name} from {caller} broke the node: this is a bug"));
+                }
+            },
+            move |headers: HashMap<String, String>| {
+                if let Some(caller) = headers.get("callerid") {
+                    met.met(caller);
+                }
+            },
+        );
+        if let Err(error) = &subscriber {
+            node.log().warn(format_args!("cannot listen to {topic}: {}", describe(error)));
+        }
+        let began = Instant::now();
+        let is_silent = || shared.age().map_or(began.elapsed(), |age| age.min(began.elapsed())) >= patience;
+        while !shared.closed.load(Ordering::Relaxed) && node.is_ok() && !is_silent() {
+            std::thread::park_timeout(Duration::from_millis(500));
+        }
+        let has_spoken = shared.age().is_some_and(|age| age < began.elapsed());
+        patience = if has_spoken { silence } else { (2 * patience).min(LONGEST_SILENCE) };
+    }
+}

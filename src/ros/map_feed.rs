@@ -1,0 +1,171 @@
+//! A map topic with its updates: gmapping's and Cartographer's `map`, move_base's
+//! `global_costmap/costmap`.
+
+use super::bell::Bell;
+use super::convert;
+use super::feed::Feed;
+use super::log::Level;
+use super::msg::map_msgs::OccupancyGridUpdate;
+use super::msg::nav_msgs::OccupancyGrid as MapMessage;
+use super::node::Node;
+use crate::grid::OccupancyGrid;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// After this time without a map the subscription is made anew: a latched topic then
+/// tells the last one again.
+const SILENCE: Duration = Duration::from_secs(60);
+/// A header's time is believed up to this long before the arrival, seconds.
+const OLDEST_STAMP_S: f64 = 30.0;
+
+/// A map as it came.
+#[derive(Clone, Debug)]
+pub struct ReceivedMap {
+    /// The map, with all updates since.
+    pub grid: Arc<OccupancyGrid>,
+    /// The frame that it is in.
+    pub frame: String,
+    /// Everything sensed up to this time is in it, seconds of ROS time.
+    pub stamp_s: f64,
+    /// When it came, for the latency from here to a goal.
+    pub arrived: Instant,
+    /// Grows with every change.
+    pub version: u64,
+}
+
+#[derive(Default)]
+struct State {
+    map: Option<ReceivedMap>,
+    last_update_seq: Option<u32>,
+    /// An update was lost: the whole map is needed again.
+    has_gap: bool,
+}
+
+/// A map and its updates, listened to until this is dropped.
+pub struct MapFeed {
+    node: Node,
+    topic: String,
+    state: Arc<Mutex<State>>,
+    bell: Arc<Bell>,
+    feed: Feed,
+    _updates: Option<Feed>,
+}
+
+impl MapFeed {
+    /// Begins to listen; rings the bell for every change.
+    #[must_use]
+    pub fn listen(node: &Node, topic: &str, updates_topic: &str, bell: &Arc<Bell>) -> Self {
+        let state = Arc::<Mutex<State>>::default();
+        let updates = (!updates_topic.is_empty()).then(|| listen_to_updates(node, updates_topic, &state, bell));
+        let feed = listen_to_maps(node, topic, &state, bell);
+        Self { node: node.clone(), topic: topic.to_owned(), state, bell: Arc::clone(bell), feed, _updates: updates }
+    }
+
+    /// The newest map; after a lost update, asks for the whole map again.
+    pub fn newest(&mut self) -> Option<ReceivedMap> {
+        let (map, has_gap) = {
+            let mut state = lock(&self.state);
+            (state.map.clone(), std::mem::take(&mut state.has_gap))
+        };
+        if has_gap {
+            self.node
+                .log()
+                .once(Level::Warn, format_args!("an update of {} was lost: asking for all of it", self.topic));
+            self.feed = listen_to_maps(&self.node, &self.topic, &self.state, &self.bell);
+        }
+        map
+    }
+
+    /// A handle that reads the newest map from other threads.
+    #[must_use]
+    pub fn reader(&self) -> MapReader {
+        MapReader(Arc::clone(&self.state))
+    }
+
+    /// The topic's name.
+    #[must_use]
+    pub fn topic(&self) -> &str {
+        &self.topic
+    }
+}
+
+/// Reads the newest map of a feed.
+#[derive(Clone)]
+pub struct MapReader(Arc<Mutex<State>>);
+
+impl MapReader {
+    /// The newest map, if one came.
+    #[must_use]
+    pub fn newest(&self) -> Option<ReceivedMap> {
+        lock(&self.0).map.clone()
+    }
+}
+
+fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Mutex<State>>, bell: &Arc<Bell>) -> Feed {
+    let (state, bell, owner, name) = (Arc::clone(state), Arc::clone(bell), node.clone(), topic.to_owned());
+    node.listen(topic, 2, SILENCE, move |message: MapMessage, caller| {
+        let arrived = Instant::now();
+        let stamp_s = believable(convert::seconds(&message.header.stamp), owner.now_s());
+        let frame = message.header.frame_id.clone();
+        match convert::grid(message) {
+            Ok(grid) => {
+                let mut state = lock(&state);
+                let version = state.map.as_ref().map_or(1, |map| map.version + 1);
+                state.map = Some(ReceivedMap { grid: Arc::new(grid), frame, stamp_s, arrived, version });
+                drop(state);
+                bell.ring();
+            }
+            Err(error) => owner.log().once(Level::Warn, format_args!("a map on {name} from {caller}: {error}")),
+        }
+    })
+}
+
+fn listen_to_updates(node: &Node, topic: &str, state: &Arc<Mutex<State>>, bell: &Arc<Bell>) -> Feed {
+    let (state, bell, owner, name) = (Arc::clone(state), Arc::clone(bell), node.clone(), topic.to_owned());
+    node.listen(topic, 50, SILENCE, move |message: OccupancyGridUpdate, caller| {
+        let (seq, arrived) = (message.header.seq, Instant::now());
+        let stamp_s = believable(convert::seconds(&message.header.stamp), owner.now_s());
+        let patch = convert::patch(message);
+        let mut state = lock(&state);
+        let follows = state.last_update_seq.replace(seq).is_none_or(|last| seq == last.wrapping_add(1) || seq == last);
+        state.has_gap |= !follows;
+        // An update that comes before its map is part of that map already.
+        let Some(map) = &mut state.map else { return };
+        match Arc::make_mut(&mut map.grid).apply(&patch) {
+            Ok(()) => {
+                (map.stamp_s, map.arrived) = (stamp_s, arrived);
+                map.version += 1;
+            }
+            // The map has changed its size, and the whole one is on its way.
+            Err(error) => {
+                state.has_gap = true;
+                owner.log().once(Level::Warn, format_args!("{name} from {caller}: {error}"));
+            }
+        }
+        drop(state);
+        bell.ring();
+    })
+}
+
+/// The time of a header where that can be, else that of the arrival.
+fn believable(header_s: f64, now_s: f64) -> f64 {
+    let age_s = now_s - header_s;
+    if header_s > 0.0 && (0.0..=OLDEST_STAMP_S).contains(&age_s) { header_s } else { now_s }
+}
+
+fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impossible_stamps_become_the_arrival() {
+        assert_eq!(believable(99.0, 100.0), 99.0);
+        for wrong in [0.0, 101.0, 12.0] {
+            assert_eq!(believable(wrong, 100.0), 100.0);
+        }
+    }
+}

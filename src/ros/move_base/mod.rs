@@ -1,0 +1,149 @@
+//! move_base, or whatever serves its action: goals go out, what became of them comes
+//! back.
+
+mod planner;
+mod tracker;
+
+pub use planner::AskingPlanner;
+pub use tracker::{GoalStatus, GoalTracker};
+
+use super::bell::Bell;
+use super::call::{CallError, call};
+use super::convert;
+use super::feed::Feed;
+use super::msg::actionlib_msgs::{GoalID, GoalStatusArray};
+use super::msg::move_base_msgs::{MoveBaseActionFeedback, MoveBaseActionGoal, MoveBaseActionResult, MoveBaseGoal};
+use super::msg::std_srvs;
+use super::node::{Node, NodeError};
+use crate::geometry::Pose;
+use crate::robot::NavigationState;
+use rosrust::Publisher;
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+
+/// A server is ready while its last status is younger than this, seconds.
+const READY_WITHIN_S: f64 = 2.0;
+/// Status comes at 5 Hz or more, so a connection that is silent for longer is broken.
+const SILENCE: Duration = Duration::from_secs(5);
+/// Result and feedback come only now and then.
+const QUIET: Duration = Duration::from_secs(120);
+/// How long a service of move_base may take.
+const SERVICE_LIMIT: Duration = Duration::from_secs(3);
+
+/// The client of one action server.
+pub struct MoveBase {
+    node: Node,
+    server: String,
+    tracker: Arc<Mutex<GoalTracker>>,
+    goals: Publisher<MoveBaseActionGoal>,
+    cancels: Publisher<GoalID>,
+    status: Feed,
+    result: Feed,
+    feedback: Feed,
+    count: u64,
+}
+
+impl MoveBase {
+    /// Connects to the server of that name in the node's namespace; rings the bell for
+    /// results.
+    ///
+    /// # Errors
+    /// [`NodeError`] when its topics cannot be offered.
+    pub fn connect(node: &Node, server: &str, bell: &Arc<Bell>) -> Result<Self, NodeError> {
+        let tracker = Arc::<Mutex<GoalTracker>>::default();
+        let topic = |name: &str| format!("{server}/{name}");
+        let (theirs, owner) = (Arc::clone(&tracker), node.clone());
+        let status = node.listen(&topic("status"), 10, SILENCE, move |message: GoalStatusArray, _| {
+            let goals = message
+                .status_list
+                .iter()
+                .map(|one| (one.goal_id.id.as_str(), GoalStatus::from_number(one.status), one.text.as_str()));
+            lock(&theirs).on_status(goals, owner.wall_s());
+        });
+        let (theirs, bell) = (Arc::clone(&tracker), Arc::clone(bell));
+        let result = node.listen(&topic("result"), 10, QUIET, move |message: MoveBaseActionResult, _| {
+            let status = &message.status;
+            lock(&theirs).on_result(&status.goal_id.id, GoalStatus::from_number(status.status), &status.text);
+            bell.ring();
+        });
+        let feedback = node.listen(&topic("feedback"), 5, QUIET, |_: MoveBaseActionFeedback, _| {});
+        Ok(Self {
+            goals: node.publish(&topic("goal"), 5)?,
+            cancels: node.publish(&topic("cancel"), 5)?,
+            node: node.clone(),
+            server: server.to_owned(),
+            tracker,
+            status,
+            result,
+            feedback,
+            count: 0,
+        })
+    }
+
+    /// Sends a goal, which takes the place of one under way.
+    ///
+    /// # Errors
+    /// What is missing, when the server is not ready: a goal that is sent before it has
+    /// connected would be lost.
+    pub fn send(&mut self, goal_in_map: &Pose, map_frame: &str) -> Result<(), String> {
+        self.check_ready()?;
+        self.count += 1;
+        let (now_s, stamp) = (self.node.now_s(), self.node.stamp());
+        let id = format!("{}-{}-{}.{:09}", self.node.name(), self.count, stamp.sec, stamp.nsec);
+        lock(&self.tracker).begin(id.clone(), self.node.wall_s());
+        let message = MoveBaseActionGoal {
+            header: convert::header("", now_s),
+            goal_id: GoalID { stamp, id },
+            goal: MoveBaseGoal { target_pose: convert::stamped(goal_in_map, map_frame, now_s) },
+        };
+        self.goals.send(message).map_err(|e| e.to_string())
+    }
+
+    /// Cancels the goal under way, if there is one; goals of others go on.
+    pub fn cancel(&mut self) {
+        if let Some(id) = lock(&self.tracker).forget() {
+            // Stamp 0 with an id means this goal alone.
+            let _ = self.cancels.send(GoalID { stamp: rosrust::Time::new(), id });
+        }
+    }
+
+    /// How the goal is doing.
+    #[must_use]
+    pub fn state(&self) -> NavigationState {
+        lock(&self.tracker).state(self.node.wall_s())
+    }
+
+    /// Clears the obstacles that move_base remembers.
+    ///
+    /// # Errors
+    /// [`CallError`] when the service is not there, or late.
+    pub fn clear_costmaps(&self) -> Result<(), CallError> {
+        let service = format!("{}/clear_costmaps", self.server);
+        call::<std_srvs::Empty>(&self.node, &service, std_srvs::EmptyReq {}, SERVICE_LIMIT).map(|_| ())
+    }
+
+    /// Whether the server has connected both ways: one and the same node tells status,
+    /// result and feedback, and hears goals and cancellations.
+    fn check_ready(&self) -> Result<(), String> {
+        let age_s = lock(&self.tracker).status_age_s(self.node.wall_s());
+        if age_s.is_none_or(|age_s| age_s > READY_WITHIN_S) {
+            return Err(format!("no action server tells its status on {}/status", self.server));
+        }
+        let hears = |names: Vec<String>| names.into_iter().collect::<BTreeSet<_>>();
+        let (goal, cancel) = (hears(self.goals.subscriber_names()), hears(self.cancels.subscriber_names()));
+        let (result, feedback) = (self.result.callers(), self.feedback.callers());
+        let is_whole = |server: &String| {
+            result.contains(server) && feedback.contains(server) && goal.contains(server) && cancel.contains(server)
+        };
+        if self.status.callers().iter().any(is_whole) {
+            Ok(())
+        } else {
+            Err(format!("the action server {} has not connected to all topics yet", self.server))
+        }
+    }
+}
+
+fn lock(tracker: &Mutex<GoalTracker>) -> MutexGuard<'_, GoalTracker> {
+    tracker.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,320 @@
+//! The nodes at work, each test in a process of its own with a master of its own inside:
+//! no ROS is needed.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
+
+mod rig;
+
+use frontier_explorer::io::load_map;
+use frontier_explorer::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
+use frontier_explorer::ros::msg::geometry_msgs::{Point32, Polygon, PolygonStamped, PoseStamped, Twist};
+use frontier_explorer::ros::msg::nav_msgs::OccupancyGrid;
+use frontier_explorer::ros::msg::std_msgs::{Bool, String as StringMessage};
+use frontier_explorer::ros::msg::visualization_msgs::MarkerArray;
+use frontier_explorer::ros::{Node, start_embedded_master};
+use libtest_mimic::{Arguments, Failed, Trial};
+use rig::{DEADLINE, Heard, Process, eventually, small_house};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+/// Names the test that a process is to run.
+const CHILD: &str = "FRONTIER_LIVE_TEST";
+/// Simulated seconds a real second.
+const SPEED: f64 = 8.0;
+const SOON: Duration = Duration::from_secs(20);
+
+const TESTS: &[(&str, fn(&World))] = &[
+    ("explores_a_house_saves_its_map_and_leaves", explores_a_house),
+    ("shows_frontiers_goals_and_status", shows_what_it_does),
+    ("sigterm_stops_the_robot_and_saves_the_map", sigterm),
+    ("lost_transforms_pause_and_do_not_end", lost_transforms),
+    ("a_dead_move_base_is_named_at_the_end", dead_move_base),
+    ("aborted_goals_are_tried_elsewhere_and_end_by_name", aborted_goals),
+    ("drives_by_itself_where_there_is_no_move_base", internal_drive),
+    ("rests_and_goes_on", rests_and_goes_on),
+    ("a_goal_clicked_in_rviz_is_no_failure", foreign_goal),
+    ("explores_inside_a_region_only", region),
+    ("looks_at_the_costmap_of_move_base", costmap_of_move_base),
+    ("lives_in_a_namespace_under_another_name", namespace),
+    ("wrong_parameters_are_named", wrong_parameters),
+    ("map_save_saves_one_map", map_save),
+    ("the_demo_needs_nothing", demo),
+];
+
+fn main() {
+    if let Ok(name) = std::env::var(CHILD) {
+        let (_, test) = TESTS.iter().find(|(known, _)| *known == name).expect("a test of this file");
+        let port: u16 = std::env::var("FRONTIER_LIVE_PORT").unwrap().parse().unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        start_embedded_master(port).unwrap();
+        test(&World::new(folder.path()));
+        return;
+    }
+    let mut arguments = Arguments::from_args();
+    // Each test drives a simulator faster than real time.
+    arguments.test_threads.get_or_insert(2);
+    let trials = TESTS.iter().map(|(name, _)| Trial::test(*name, move || in_own_process(name))).collect();
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn in_own_process(name: &str) -> Result<(), Failed> {
+    let port = std::net::TcpListener::bind("127.0.0.1:0")?.local_addr()?.port();
+    let output = Command::new(std::env::current_exe()?)
+        .env(CHILD, name)
+        .env("FRONTIER_LIVE_PORT", port.to_string())
+        .env("ROS_MASTER_URI", format!("http://localhost:{port}"))
+        .env("ROS_HOSTNAME", "localhost")
+        .env_remove("ROS_NAMESPACE")
+        .env_remove("ROS_IP")
+        .output()?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Err(format!("{}{}", text(&output.stdout), text(&output.stderr)).into())
+}
+
+/// A house, a folder, and a probe on the master.
+struct World {
+    folder: PathBuf,
+    house: PathBuf,
+    probe: Node,
+}
+
+impl World {
+    fn new(folder: &Path) -> Self {
+        let probe = Node::start("probe").unwrap();
+        probe.set_param("/use_sim_time", &true).unwrap();
+        Self { folder: folder.to_owned(), house: small_house(folder), probe }
+    }
+
+    fn simulate(&self, more: &[&str]) -> Process {
+        let world = format!("_world:={}", self.house.display());
+        let speed = format!("_speed:={SPEED}");
+        let mut args = vec![world.as_str(), speed.as_str(), "_start:=[2.0, 1.7]"];
+        args.extend(more);
+        Process::start(env!("CARGO_BIN_EXE_sim_node"), &args, self.folder.join("sim.log"))
+    }
+
+    fn explore(&self, more: &[&str]) -> Process {
+        let map_file = format!("_map_file:={}", self.map().display());
+        let mut args = vec![map_file.as_str(), "_exit_when_done:=true"];
+        args.extend(more);
+        Process::start(env!("CARGO_BIN_EXE_explore_node"), &args, self.folder.join("explore.log"))
+    }
+
+    fn map(&self) -> PathBuf {
+        self.folder.join("map")
+    }
+
+    /// The saved map shows both rooms: at least 99 % of the floor of the world.
+    fn expect_explored(&self) {
+        let saved = load_map(&self.map().with_extension("yaml")).unwrap().grid;
+        let truth = load_map(&self.house).unwrap().grid;
+        let free = |grid: &frontier_explorer::grid::OccupancyGrid| grid.census(&Default::default()).free as f64;
+        let share = free(&saved) / free(&truth);
+        assert!((0.99..=1.001).contains(&share), "{share} of the floor");
+    }
+}
+
+fn explores_a_house(world: &World) {
+    let mut sim = world.simulate(&[]);
+    let mut explore = world.explore(&[]);
+    explore.expect_code(0, DEADLINE);
+    let log = explore.log();
+    assert!(log.contains("complete: "), "{log}");
+    assert!(log.contains("from a map to the goal that it led to: median"), "{log}");
+    assert!(log.contains("saved "), "{log}");
+    world.expect_explored();
+    sim.signal("TERM");
+    sim.expect_code(0, SOON);
+    assert!(sim.log().contains(" 0 collisions"), "{}", sim.log());
+}
+
+fn shows_what_it_does(world: &World) {
+    let arrays = Heard::<FrontierArray>::on(&world.probe, "/explore/frontier_array");
+    let markers = Heard::<MarkerArray>::on(&world.probe, "/explore/frontiers");
+    let goals = Heard::<PoseStamped>::on(&world.probe, "/explore/goal");
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let _sim = world.simulate(&[]);
+    let mut explore = world.explore(&[]);
+    let array = arrays.expect(SOON, "a decision with a goal", |m| m.frontiers.iter().any(|f| f.has_goal));
+    let best = &array.frontiers[0];
+    assert_eq!((best.rank, array.header.frame_id.as_str()), (1, "map"));
+    assert!(best.score_names.contains(&"total".to_owned()) && best.path_m > 0.0, "{best:?}");
+    let shown = markers.expect(SOON, "markers", |m| m.markers.iter().any(|m| m.ns == "frontiers"));
+    assert!(shown.markers.iter().any(|m| m.id == i32::try_from(best.id).unwrap()));
+    goals.expect(SOON, "a goal", |m| m.header.frame_id == "map");
+    status.expect(SOON, "driving", |m| m.phase == ExplorationStatus::DRIVING && m.goals_sent > 0);
+    explore.expect_code(0, DEADLINE);
+    let end = status.expect(SOON, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!(end.end_reason, "complete");
+    assert!(end.known_area_m2 > 22.0 && end.distance_m > 2.0 && end.goals_failed == 0, "{end:?}");
+}
+
+fn sigterm(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let cancels = Heard::<frontier_explorer::ros::msg::actionlib_msgs::GoalID>::on(&world.probe, "/move_base/cancel");
+    let twists = Heard::<Twist>::on(&world.probe, "/cmd_vel");
+    let mut sim = world.simulate(&[]);
+    let mut explore = world.explore(&["_exit_when_done:=false"]);
+    status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
+    explore.signal("TERM");
+    explore.expect_code(0, Duration::from_secs(6));
+    cancels.expect(SOON, "a cancellation", |m| m.id.starts_with("/explore-"));
+    twists.expect(SOON, "standing still", |m| m.linear.x == 0.0 && m.angular.z == 0.0);
+    assert!(world.map().with_extension("pgm").exists(), "{}", explore.log());
+    assert!(explore.log().contains("interrupted"), "{}", explore.log());
+    sim.signal("INT");
+    sim.expect_code(0, SOON);
+}
+
+fn lost_transforms(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
+    faults.set_latching(true);
+    let _sim = world.simulate(&[]);
+    let mut explore = world.explore(&[]);
+    status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
+    faults.send(StringMessage { data: "drop_tf".to_owned() }).unwrap();
+    status.expect(SOON, "waiting for the pose", |m| m.phase == ExplorationStatus::WAITING_FOR_POSE);
+    explore.expect_log("s old: must be at most 0.5 s", SOON);
+    faults.send(StringMessage { data: "none".to_owned() }).unwrap();
+    explore.expect_code(0, DEADLINE);
+    world.expect_explored();
+}
+
+fn dead_move_base(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let _sim = world.simulate(&["_fault:=dead_move_base"]);
+    let mut explore = world.explore(&["_explorer:={patience: {navigation_timeout_s: 20.0}}"]);
+    let end = status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!(end.end_reason, "no_navigation");
+    assert!(end.message.contains("move_base/status"), "{end:?}");
+    explore.expect_code(3, SOON);
+    assert!(world.map().with_extension("pgm").exists());
+}
+
+fn aborted_goals(world: &World) {
+    let _sim = world.simulate(&["_fault:=abort_goals"]);
+    let mut explore = world.explore(&[]);
+    explore.expect_code(3, DEADLINE);
+    let log = explore.log();
+    assert!(log.contains("all_unreachable") && log.contains("aborted by a fault"), "{log}");
+}
+
+fn internal_drive(world: &World) {
+    let _sim = world.simulate(&["_move_base:=false"]);
+    let mut explore = world.explore(&["_config:=alghfeli", "_navigation:={drive: internal}"]);
+    explore.expect_code(0, DEADLINE);
+    assert!(explore.log().contains("goals to our own controller"), "{}", explore.log());
+    world.expect_explored();
+}
+
+fn rests_and_goes_on(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let mut resume = world.probe.publish::<Bool>("/explore/resume", 1).unwrap();
+    resume.set_latching(true);
+    let _sim = world.simulate(&[]);
+    let mut explore = world.explore(&[]);
+    status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
+    resume.send(Bool { data: false }).unwrap();
+    let rest = status.expect(SOON, "resting", |m| m.phase == ExplorationStatus::PAUSED);
+    std::thread::sleep(Duration::from_secs(5));
+    let later = status.last().unwrap();
+    assert_eq!((later.phase, later.distance_m), (ExplorationStatus::PAUSED, rest.distance_m));
+    resume.send(Bool { data: true }).unwrap();
+    explore.expect_code(0, DEADLINE);
+    let end = status.expect(SOON, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!((end.end_reason.as_str(), end.goals_failed), ("complete", 0), "a rest is no failure");
+}
+
+fn foreign_goal(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let click = world.probe.publish::<PoseStamped>("/move_base_simple/goal", 1).unwrap();
+    let _sim = world.simulate(&[]);
+    let mut explore = world.explore(&[]);
+    status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
+    let mut goal = PoseStamped::default();
+    goal.header.frame_id = "map".to_owned();
+    (goal.pose.position.x, goal.pose.position.y, goal.pose.orientation.w) = (1.5, 1.5, 1.0);
+    click.send(goal).unwrap();
+    explore.expect_code(0, DEADLINE);
+    let end = status.expect(SOON, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!((end.end_reason.as_str(), end.goals_failed), ("complete", 0));
+}
+
+fn region(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let mut regions = world.probe.publish::<PolygonStamped>("/explore/set_region", 1).unwrap();
+    regions.set_latching(true);
+    let corner = |x: f32, y: f32| Point32 { x, y, z: 0.0 };
+    let points = vec![corner(0.0, 0.0), corner(3.7, 0.0), corner(3.7, 3.5), corner(0.0, 3.5)];
+    regions.send(PolygonStamped { polygon: Polygon { points }, ..PolygonStamped::default() }).unwrap();
+    let _sim = world.simulate(&[]);
+    let mut explore = world.explore(&[]);
+    let end = status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!(end.end_reason, "outside_region", "{}", explore.log());
+    explore.expect_code(0, SOON);
+}
+
+fn costmap_of_move_base(world: &World) {
+    let _sim = world.simulate(&[]);
+    let topic = "_global_costmap_topic:=move_base/global_costmap/costmap";
+    let mut explore = world.explore(&["_config:=northwestern", topic, "_check_with_make_plan:=true"]);
+    explore.expect_code(0, DEADLINE);
+    world.expect_explored();
+}
+
+fn namespace(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/robot/scout/status");
+    let _sim = world.simulate(&["__ns:=/robot"]);
+    let mut explore = world.explore(&["__ns:=/robot", "__name:=scout"]);
+    let end = status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!(end.end_reason, "complete");
+    explore.expect_code(0, SOON);
+    world.expect_explored();
+}
+
+fn wrong_parameters(world: &World) {
+    let cases = [
+        ("_tick_rate:=0", "parameter ~tick_rate is 0: must be within 0.1 to 50"),
+        ("_base_frme:=base_link", "parameter ~base_frme: unknown field `base_frme`"),
+        ("_config:=wdf", "parameter ~config: there is no preset \"wdf\": must be one of wfd"),
+        ("_explorer:={goal: {search_radius_m: -1}}", "~explorer.goal.search_radius_m is -1: must be finite and > 0"),
+        ("_config:=", "the parameter ~config on the command line has no value"),
+    ];
+    for (argument, message) in cases {
+        let name = format!("__name:=explore_{}", argument.len());
+        let mut explore = world.explore(&[argument, &name]);
+        explore.expect_code(1, SOON);
+        assert!(explore.log().contains(message), "{}", explore.log());
+    }
+}
+
+fn map_save(world: &World) {
+    let maps = Heard::<OccupancyGrid>::on(&world.probe, "/map");
+    let _sim = world.simulate(&[]);
+    maps.expect(SOON, "a map", |_| true);
+    let file = world.folder.join("saved");
+    let args = ["map", "save", "-f", file.to_str().unwrap(), "map:=/map"];
+    let mut save = Process::start(env!("CARGO_BIN_EXE_frontier"), &args, world.folder.join("save.log"));
+    save.expect_code(0, SOON);
+    let saved = load_map(&file.with_extension("yaml")).unwrap().grid;
+    assert!(saved.census(&Default::default()).free > 1000);
+    let nothing = ["map", "save", "-f", file.to_str().unwrap(), "--topic", "no_map", "--timeout", "1"];
+    let mut save = Process::start(env!("CARGO_BIN_EXE_frontier"), &nothing, world.folder.join("save.log"));
+    save.expect_code(1, SOON);
+    assert!(save.log().contains("no map came on no_map for 1 s"), "{}", save.log());
+}
+
+fn demo(world: &World) {
+    let file = world.folder.join("demo");
+    let house = world.house.to_str().unwrap();
+    let args = ["demo", house, "--port", "0", "--speed", "8", "--map-file", file.to_str().unwrap()];
+    let mut demo = Process::start(env!("CARGO_BIN_EXE_frontier"), &args, world.folder.join("demo.log"));
+    demo.expect_code(0, DEADLINE);
+    eventually(SOON, || file.with_extension("pgm").exists(), || demo.log());
+    assert!(demo.log().contains("complete"), "{}", demo.log());
+}

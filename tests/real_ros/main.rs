@@ -1,0 +1,246 @@
+//! The nodes against Debian's ROS 1: roscore, rospy, actionlib, tf2_ros, rosbag,
+//! roslaunch, rosrun and a catkin workspace. Without ROS the tests are skipped, and say
+//! so; `FRONTIER_REQUIRE_ROS=1` makes that a failure.
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
+
+#[path = "../live/rig.rs"]
+#[allow(dead_code)]
+mod rig;
+
+use frontier_explorer::io::load_map;
+use libtest_mimic::{Arguments, Failed, Trial};
+use rig::{DEADLINE, Process, eventually, small_house};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+use std::time::Duration;
+
+const SOON: Duration = Duration::from_secs(30);
+/// cargo may have to build the binaries for catkin.
+const BUILD: Duration = Duration::from_secs(1200);
+
+const TESTS: &[(&str, fn(&Stage))] = &[
+    ("a_stack_of_real_parts_is_explored", real_parts),
+    ("rosnode_kill_and_rostopic_and_rosparam_work", tools),
+    ("rosbag_records_a_run", rosbag),
+    ("catkin_builds_and_roslaunch_runs_the_demo", demo_launch),
+    ("the_launch_file_of_explore_lite_works", explore_lite_launch),
+    ("message_definitions_are_those_of_the_installation", messages),
+];
+
+fn main() {
+    let missing: Vec<&str> =
+        ["roscore", "roslaunch", "rostopic", "rosbag", "catkin_make"].into_iter().filter(|p| !is_there(p)).collect();
+    let trials: Vec<Trial> = if missing.is_empty() {
+        TESTS.iter().map(|(name, test)| Trial::test(*name, move || run(name, *test))).collect()
+    } else if std::env::var_os("FRONTIER_REQUIRE_ROS").is_some() {
+        let why = format!("FRONTIER_REQUIRE_ROS is set, and these programs of ROS are missing: {}", missing.join(", "));
+        vec![Trial::test("ros_is_installed", move || Err(why.into()))]
+    } else {
+        let bar = "=".repeat(78);
+        eprintln!("{bar}\nSKIPPED: {} tests against a real ROS 1, as these programs are missing:", TESTS.len());
+        eprintln!("  {}\nOn Debian 12: apt install ros-base rosbash (see .ci/run)\n{bar}", missing.join(", "));
+        TESTS.iter().map(|(name, _)| Trial::test(*name, || Ok(())).with_ignored_flag(true)).collect()
+    };
+    let mut arguments = Arguments::from_args();
+    arguments.test_threads.get_or_insert(1);
+    libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn is_there(program: &str) -> bool {
+    std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()).any(|folder| folder.join(program).is_file())
+}
+
+fn run(_name: &str, test: fn(&Stage)) -> Result<(), Failed> {
+    let folder = tempfile::tempdir()?;
+    std::panic::catch_unwind(|| test(&Stage::begin(folder.path()))).map_err(|panic| {
+        let text = panic.downcast_ref::<String>().cloned();
+        text.or_else(|| panic.downcast_ref::<&str>().map(|&s| s.to_owned())).unwrap_or_default().into()
+    })
+}
+
+/// A roscore of its own, and a folder.
+struct Stage {
+    folder: PathBuf,
+    uri: String,
+    _roscore: Process,
+}
+
+impl Stage {
+    fn begin(folder: &Path) -> Self {
+        let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+        let uri = format!("http://localhost:{port}");
+        let log = folder.join("roscore.log");
+        let script = format!("exec roscore -p {port}");
+        let roscore = Process::start_in("bash", &["-c", &script], log, &env(&uri, folder));
+        eventually(SOON, || frontier_explorer::ros::probe(&uri).is_ok(), || roscore.log());
+        Self { folder: folder.to_owned(), uri, _roscore: roscore }
+    }
+
+    /// Starts a shell command with this stage's master.
+    fn start(&self, name: &str, command: &str) -> Process {
+        let log = self.folder.join(format!("{name}.log"));
+        Process::start_in("bash", &["-c", &format!("exec {command}")], log, &env(&self.uri, &self.folder))
+    }
+
+    /// Runs a shell command to its end and returns what it printed.
+    fn output(&self, command: &str) -> String {
+        let mut shell = Command::new("bash");
+        shell.args(["-c", command]).envs(env(&self.uri, &self.folder));
+        let output = shell.output().unwrap();
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{command}: {}\n{text}{errors}", output.status);
+        text
+    }
+
+    fn sim(&self, more: &str) -> Process {
+        let house = small_house(&self.folder);
+        self.output("rosparam set /use_sim_time true");
+        let command = format!(
+            "{} _world:={} _speed:=8.0 '_start:=[2.0, 1.7]' {more}",
+            env!("CARGO_BIN_EXE_sim_node"),
+            house.display()
+        );
+        self.start("sim", &command)
+    }
+
+    fn explore(&self, more: &str) -> Process {
+        let map = self.folder.join("map");
+        let program = env!("CARGO_BIN_EXE_explore_node");
+        self.start("explore", &format!("{program} _map_file:={} {more}", map.display()))
+    }
+}
+
+fn env(uri: &str, folder: &Path) -> Vec<(String, String)> {
+    let pairs = [("ROS_MASTER_URI", uri), ("ROS_HOSTNAME", "localhost"), ("ROS_LOG_DIR", &folder.to_string_lossy())];
+    pairs.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec()
+}
+
+fn source(file: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
+}
+
+fn real_parts(stage: &Stage) {
+    let stack = stage.start("stack", &format!("python3 {}", source("tests/real_ros/stack.py").display()));
+    let mut explore = stage.explore("_exit_when_done:=true _base_frame:=base_link");
+    explore.expect_code(0, DEADLINE);
+    let saved = load_map(&stage.folder.join("map.yaml")).unwrap().grid;
+    let free_m2 = saved.census(&Default::default()).free as f64 * 0.0025;
+    assert!((22.0..24.5).contains(&free_m2), "{free_m2} m2 free\n{}{}", explore.log(), stack.log());
+}
+
+fn tools(stage: &Stage) {
+    let mut sim = stage.sim("");
+    let mut explore = stage.explore("");
+    explore.expect_log("best of", DEADLINE);
+    let nodes = stage.output("rosnode list");
+    assert!(nodes.contains("/sim") && nodes.contains("/explore"), "{nodes}");
+    let marker = stage.output("timeout 20 rostopic echo -n 1 /explore/frontiers");
+    assert!(marker.contains("ns: \"frontiers\""), "{marker}");
+    let look_up = source("tests/real_ros/look_up.py");
+    let tf = stage.output(&format!("timeout 20 python3 {} map base_scan", look_up.display()));
+    assert!(tf.contains("translation"), "{tf}");
+    assert!(stage.output("rosservice call /explore/save_map").contains("success: True"));
+    assert_eq!(stage.output("rosparam get /explore/map_file").trim(), stage.folder.join("map").to_string_lossy());
+    let scan = stage.output("timeout 20 rostopic echo -n 1 /scan/range_max");
+    assert!(scan.contains("12.0"), "{scan}");
+    stage.output("rosnode kill /explore");
+    explore.expect_code(0, SOON);
+    stage.output("rosnode kill /sim");
+    sim.expect_code(0, SOON);
+    let left = stage.output("rosnode list");
+    assert!(!left.contains("/sim") && !left.contains("/explore"), "all is unregistered: {left}");
+    let topics = stage.output("rostopic list");
+    assert!(!topics.contains("/explore/"), "all is unregistered: {topics}");
+}
+
+fn rosbag(stage: &Stage) {
+    let _sim = stage.sim("");
+    let bag = stage.folder.join("run.bag");
+    let topics = "/map /tf /tf_static /scan /move_base/goal /explore/frontiers";
+    let mut record = stage.start("record", &format!("rosbag record -O {} {topics}", bag.display()));
+    let mut explore = stage.explore("_exit_when_done:=true");
+    explore.expect_code(0, DEADLINE);
+    record.signal("INT");
+    record.wait(SOON);
+    let info = stage.output(&format!("rosbag info -y {}", bag.display()));
+    for topic in topics.split(' ') {
+        assert!(info.contains(&format!("topic: {topic}\n")), "{topic} is not in\n{info}");
+    }
+    assert!(info.contains("md5: 3381f2d731d4076ec5c71b0759edbe4e"), "{info}");
+}
+
+/// A catkin workspace with this package, built once for all tests.
+fn workspace() -> &'static Path {
+    static WORKSPACE: OnceLock<PathBuf> = OnceLock::new();
+    WORKSPACE.get_or_init(|| {
+        let target = Path::new(env!("CARGO_BIN_EXE_explore_node")).parent().unwrap().parent().unwrap();
+        let root = target.join("catkin_test");
+        let _ = std::fs::remove_dir_all(&root);
+        std::fs::create_dir_all(root.join("src")).unwrap();
+        std::os::unix::fs::symlink(source(""), root.join("src/frontier_explorer")).unwrap();
+        let command = format!(
+            "cd {} && catkin_make install -DCARGO_PROFILE=dev -DCARGO_TARGET_DIR={}",
+            root.display(),
+            target.display()
+        );
+        let mut build = Process::start_in("bash", &["-c", &command], root.join("build.log"), &[]);
+        let status = build.wait(BUILD);
+        assert!(status.success(), "{}", build.log());
+        root
+    })
+}
+
+fn with_workspace(space: &str, command: &str) -> String {
+    format!("bash -c 'source {}/{space}/setup.bash && exec {command}'", workspace().display())
+}
+
+fn demo_launch(stage: &Stage) {
+    let house = small_house(&stage.folder);
+    for space in ["devel", "install"] {
+        let map = stage.folder.join(space);
+        let launch = format!(
+            "roslaunch frontier_explorer demo_sim.launch world:={} start:=\"[2.0, 1.7]\" speed:=8.0 map_file:={} \
+             exit_when_done:=true",
+            house.display(),
+            map.display()
+        );
+        let mut demo = stage.start(space, &with_workspace(space, &launch));
+        demo.expect_code(0, DEADLINE);
+        assert!(demo.log().contains("complete: "), "{}", demo.log());
+        let saved = load_map(&map.with_extension("yaml")).unwrap().grid;
+        assert!(saved.census(&Default::default()).free as f64 * 0.0025 > 22.0, "{}", demo.log());
+        let found = stage.output(&with_workspace(space, "rosrun frontier_explorer frontier --version"));
+        assert!(found.starts_with("frontier "), "{found}");
+        let message = stage.output(&with_workspace(space, "rosmsg show frontier_explorer/FrontierArray"));
+        assert!(message.contains("frontier_explorer/Frontier[] frontiers"), "{message}");
+    }
+    let nodes = stage.output("rosnode list");
+    assert!(!nodes.contains("explore") && !nodes.contains("sim"), "nothing is left behind: {nodes}");
+}
+
+fn explore_lite_launch(stage: &Stage) {
+    let _sim = stage.sim("");
+    let file = source("tests/real_ros/explore_lite.launch");
+    let mut launch = stage.start("launch", &with_workspace("devel", &format!("roslaunch {}", file.display())));
+    launch.expect_log("complete: ", DEADLINE);
+    assert!(launch.log().contains("preset explore_lite"), "{}", launch.log());
+    launch.signal("INT");
+    launch.wait(SOON);
+}
+
+fn messages(stage: &Stage) {
+    for name in [
+        "nav_msgs/OccupancyGrid",
+        "geometry_msgs/PoseStamped",
+        "actionlib_msgs/GoalStatusArray",
+        "tf2_msgs/TFMessage",
+        "visualization_msgs/MarkerArray",
+    ] {
+        let md5 = stage.output(&format!("rosmsg md5 {name}"));
+        let tests = std::fs::read_to_string(source("tests/messages.rs")).unwrap();
+        assert!(tests.contains(md5.trim()), "{name} has {md5}");
+    }
+}
