@@ -123,7 +123,7 @@ fn source(file: &str) -> PathBuf {
 }
 
 fn real_parts(stage: &Stage) {
-    let stack = stage.start("stack", &format!("python3 {}", source("tests/real_ros/stack.py").display()));
+    let stack = stage.start("stack", &format!("/usr/bin/python3 {}", source("tests/real_ros/stack.py").display()));
     let mut explore = stage.explore("_exit_when_done:=true _base_frame:=base_link");
     explore.expect_code(0, DEADLINE);
     let saved = load_map(&stage.folder.join("map.yaml")).unwrap().grid;
@@ -140,7 +140,7 @@ fn tools(stage: &Stage) {
     let marker = stage.output("timeout 20 rostopic echo -n 1 /explore/frontiers");
     assert!(marker.contains("ns: \"frontiers\""), "{marker}");
     let look_up = source("tests/real_ros/look_up.py");
-    let tf = stage.output(&format!("timeout 20 python3 {} map base_scan", look_up.display()));
+    let tf = stage.output(&format!("timeout 20 /usr/bin/python3 {} map base_scan", look_up.display()));
     assert!(tf.contains("translation"), "{tf}");
     assert!(stage.output("rosservice call /explore/save_map").contains("success: True"));
     assert_eq!(stage.output("rosparam get /explore/map_file").trim(), stage.folder.join("map").to_string_lossy());
@@ -182,7 +182,7 @@ fn workspace() -> &'static Path {
         std::fs::create_dir_all(root.join("src")).unwrap();
         std::os::unix::fs::symlink(source(""), root.join("src/frontier_explorer")).unwrap();
         let command = format!(
-            "cd {} && catkin_make install -DCARGO_PROFILE=dev -DCARGO_TARGET_DIR={}",
+            "cd {} && catkin_make install -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCARGO_PROFILE=dev -DCARGO_TARGET_DIR={}",
             root.display(),
             target.display()
         );
