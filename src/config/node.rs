@@ -7,6 +7,7 @@
 use super::merge::merge;
 use super::preset::{Preset, PresetError};
 use crate::geometry::{Point, Polygon};
+use crate::grid::Thresholds;
 use crate::range::OutOfRange;
 use crate::selection::{ExploreLiteConfig, SelectorConfig};
 use serde::Deserialize;
@@ -209,6 +210,11 @@ impl NodeParams {
         merge(&mut tree, Value::Object(over));
         let mut preset: Preset = from_value(tree)?;
         self.set_explore_lite(&mut preset);
+        if self.map_topic.ends_with("costmap") {
+            // A published costmap: 100 is an obstacle, and what is below was inflated
+            // around it; the frontiers' map is what lies beneath.
+            preset.explorer.thresholds = Thresholds { free_max: 99, occupied_min: 100 };
+        }
         if let Some(corners) = &self.region {
             let corners = corners.iter().map(|&[x, y]| Point::new(x, y)).collect();
             let region = Polygon::new(corners).map_err(|e| NodeParamsError::Region(e.to_string()))?;
@@ -302,6 +308,12 @@ mod tests {
         assert_eq!(explorer.selection, SelectorConfig::ExploreLite(weights));
         assert_eq!(explorer.goal.reconsider_period_s, Some(2.0));
         assert_eq!((explorer.patience.progress_timeout_s, explorer.detector.min_size_m), (25.0, 0.6));
+    }
+
+    #[test]
+    fn a_costmap_in_the_place_of_the_map_has_one_kind_of_obstacle() {
+        let costmap = json!({"costmap_topic": "move_base/global_costmap/costmap", "potential_scale": 3.0});
+        assert_eq!(preset(costmap).unwrap().explorer.thresholds, Thresholds { free_max: 99, occupied_min: 100 });
     }
 
     #[test]

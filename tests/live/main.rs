@@ -9,6 +9,7 @@ use frontier_explorer::geometry::{Footprint, Pose};
 use frontier_explorer::io::load_map;
 use frontier_explorer::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
 use frontier_explorer::ros::msg::geometry_msgs::{Point32, Polygon, PolygonStamped, PoseStamped, Twist};
+use frontier_explorer::ros::msg::move_base_msgs::MoveBaseActionGoal;
 use frontier_explorer::ros::msg::nav_msgs::OccupancyGrid;
 use frontier_explorer::ros::msg::std_msgs::{Bool, String as StringMessage};
 use frontier_explorer::ros::msg::visualization_msgs::MarkerArray;
@@ -34,6 +35,8 @@ const TESTS: &[(&str, fn(&World))] = &[
     ("a_dead_move_base_is_named_at_the_end", dead_move_base),
     ("aborted_goals_are_tried_elsewhere_and_end_by_name", aborted_goals),
     ("drives_by_itself_where_there_is_no_move_base", internal_drive),
+    ("looks_round_by_goals_of_move_base", turn_by_goals),
+    ("goals_that_hang_are_given_up", hanging_goals),
     ("rests_and_goes_on", rests_and_goes_on),
     ("a_goal_clicked_in_rviz_is_no_failure", foreign_goal),
     ("explores_inside_a_region_only", region),
@@ -213,6 +216,27 @@ fn internal_drive(world: &World) {
     explore.expect_code(0, DEADLINE);
     assert!(explore.log().contains("goals to our own controller"), "{}", explore.log());
     world.expect_explored();
+}
+
+fn turn_by_goals(world: &World) {
+    let goals = Heard::<MoveBaseActionGoal>::on(&world.probe, "/move_base/goal");
+    let _sim = world.simulate(&[]);
+    let mut explore = world.explore(&["_turn_by:=move_base"]);
+    explore.expect_code(0, DEADLINE);
+    world.expect_explored();
+    let place = |m: &MoveBaseActionGoal| (m.goal.target_pose.pose.position.x, m.goal.target_pose.pose.position.y);
+    let first: Vec<_> = goals.all().iter().take(3).map(place).collect();
+    assert!(first.len() == 3 && first.iter().all(|&(x, y)| (x - 2.0).hypot(y - 1.7) < 0.2), "{first:?}");
+}
+
+fn hanging_goals(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let _sim = world.simulate(&["_fault:=hang"]);
+    let mut explore = world.explore(&["_explorer:={patience: {progress_timeout_s: 5.0}}"]);
+    let end = status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
+    assert_eq!((end.end_reason.as_str(), end.goals_reached), ("all_unreachable", 0), "{end:?}");
+    assert!(end.goals_failed > 0, "{end:?}");
+    explore.expect_code(3, SOON);
 }
 
 fn rests_and_goes_on(world: &World) {

@@ -26,6 +26,7 @@ const TESTS: &[(&str, fn(&Stage))] = &[
     ("rosbag_records_a_run", rosbag),
     ("catkin_builds_and_roslaunch_runs_the_demo", demo_launch),
     ("the_launch_file_of_explore_lite_works", explore_lite_launch),
+    ("a_killed_master_does_not_end_the_exploration", killed_master),
     ("message_definitions_are_those_of_the_installation", messages),
 ];
 
@@ -33,7 +34,7 @@ fn main() {
     let missing: Vec<&str> =
         ["roscore", "roslaunch", "rostopic", "rosbag", "catkin_make"].into_iter().filter(|p| !is_there(p)).collect();
     let trials: Vec<Trial> = if missing.is_empty() {
-        TESTS.iter().map(|(name, test)| Trial::test(*name, move || run(name, *test))).collect()
+        TESTS.iter().map(|(name, test)| Trial::test(*name, move || run(*test))).collect()
     } else if std::env::var_os("FRONTIER_REQUIRE_ROS").is_some() {
         let why = format!("FRONTIER_REQUIRE_ROS is set, and these programs of ROS are missing: {}", missing.join(", "));
         vec![Trial::test("ros_is_installed", move || Err(why.into()))]
@@ -45,14 +46,19 @@ fn main() {
     };
     let mut arguments = Arguments::from_args();
     arguments.test_threads.get_or_insert(1);
-    libtest_mimic::run(&arguments, trials).exit();
+    let conclusion = libtest_mimic::run(&arguments, trials);
+    if let Some(workspace) = WORKSPACE.get() {
+        // What a static holds is dropped by nobody.
+        let _ = std::fs::remove_dir_all(workspace.path());
+    }
+    conclusion.exit();
 }
 
 fn is_there(program: &str) -> bool {
     std::env::split_paths(&std::env::var_os("PATH").unwrap_or_default()).any(|folder| folder.join(program).is_file())
 }
 
-fn run(_name: &str, test: fn(&Stage)) -> Result<(), Failed> {
+fn run(test: fn(&Stage)) -> Result<(), Failed> {
     let folder = tempfile::tempdir()?;
     std::panic::catch_unwind(|| test(&Stage::begin(folder.path()))).map_err(|panic| {
         let text = panic.downcast_ref::<String>().cloned();
@@ -64,7 +70,7 @@ fn run(_name: &str, test: fn(&Stage)) -> Result<(), Failed> {
 struct Stage {
     folder: PathBuf,
     uri: String,
-    _roscore: Process,
+    roscore: Process,
 }
 
 impl Stage {
@@ -75,7 +81,7 @@ impl Stage {
         let script = format!("exec roscore -p {port}");
         let roscore = Process::start_in("bash", &["-c", &script], log, &env(&uri, folder));
         eventually(SOON, || frontier_explorer::ros::probe(&uri).is_ok(), || roscore.log());
-        Self { folder: folder.to_owned(), uri, _roscore: roscore }
+        Self { folder: folder.to_owned(), uri, roscore }
     }
 
     /// Starts a shell command with this stage's master.
@@ -172,25 +178,34 @@ fn rosbag(stage: &Stage) {
     assert!(info.contains("md5: 3381f2d731d4076ec5c71b0759edbe4e"), "{info}");
 }
 
+static WORKSPACE: OnceLock<tempfile::TempDir> = OnceLock::new();
+
 /// A catkin workspace with this package, built once for all tests.
 fn workspace() -> &'static Path {
-    static WORKSPACE: OnceLock<PathBuf> = OnceLock::new();
-    WORKSPACE.get_or_init(|| {
+    let build = || {
+        let root = tempfile::tempdir().unwrap();
+        let package = root.path().join("src/frontier_explorer");
+        std::fs::create_dir_all(&package).unwrap();
+        // All but what cargo built: roslaunch looks through the whole package.
+        for entry in std::fs::read_dir(source("")).unwrap() {
+            let entry = entry.unwrap();
+            if entry.file_name() != "target" {
+                std::os::unix::fs::symlink(entry.path(), package.join(entry.file_name())).unwrap();
+            }
+        }
         let target = Path::new(env!("CARGO_BIN_EXE_explore_node")).parent().unwrap().parent().unwrap();
-        let root = target.join("catkin_test");
-        let _ = std::fs::remove_dir_all(&root);
-        std::fs::create_dir_all(root.join("src")).unwrap();
-        std::os::unix::fs::symlink(source(""), root.join("src/frontier_explorer")).unwrap();
         let command = format!(
             "cd {} && catkin_make install -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCARGO_PROFILE=dev -DCARGO_TARGET_DIR={}",
-            root.display(),
+            root.path().display(),
             target.display()
         );
-        let mut build = Process::start_in("bash", &["-c", &command], root.join("build.log"), &[]);
+        let log = root.path().join("build.log");
+        let mut build = Process::start_in("bash", &["-c", &command], log, &[]);
         let status = build.wait(BUILD);
         assert!(status.success(), "{}", build.log());
         root
-    })
+    };
+    WORKSPACE.get_or_init(build).path()
 }
 
 fn with_workspace(space: &str, command: &str) -> String {
@@ -229,6 +244,16 @@ fn explore_lite_launch(stage: &Stage) {
     assert!(launch.log().contains("preset explore_lite"), "{}", launch.log());
     launch.signal("INT");
     launch.wait(SOON);
+}
+
+fn killed_master(stage: &Stage) {
+    let _sim = stage.sim("");
+    let mut explore = stage.explore("_exit_when_done:=true");
+    explore.expect_log("best of", DEADLINE);
+    stage.roscore.signal("KILL");
+    explore.expect_code(0, DEADLINE);
+    assert!(explore.log().contains("complete: "), "{}", explore.log());
+    assert!(stage.folder.join("map.pgm").exists(), "{}", explore.log());
 }
 
 fn messages(stage: &Stage) {

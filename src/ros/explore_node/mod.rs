@@ -180,7 +180,7 @@ fn save(node: &Node, robot: &RosRobot, map_file: &str) {
         node.log().warn(format_args!("no map has come that could be saved as {map_file}"));
         return;
     };
-    match save_map(Path::new(map_file), &map.grid, &SaveOptions::default()) {
+    match save_as(map_file, map) {
         Ok(paths) => node.log().info(format_args!("saved {} and {}", paths.yaml.display(), paths.image.display())),
         Err(error) => node.log().error(error),
     }

@@ -3,11 +3,12 @@
 
 use super::controls::Controls;
 use super::outputs::Outputs;
-use crate::explore::{CandidateStatus, Counts, Decision, End, Explorer, Phase, Watcher};
+use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
 use crate::grid::Thresholds;
 use crate::robot::Observation;
 use crate::ros::display::{StatusInput, status};
+use crate::ros::log::Level;
 use crate::ros::msg::frontier_explorer::ExplorationStatus;
 use crate::ros::node::Node;
 use crate::ros::robot::RosRobot;
@@ -32,6 +33,7 @@ pub struct NodeWatcher<'a> {
     message: String,
     region_shown: bool,
     failed_before: usize,
+    last_goal: Option<Pose>,
 }
 
 impl<'a> NodeWatcher<'a> {
@@ -53,6 +55,7 @@ impl<'a> NodeWatcher<'a> {
             message: "waiting for the first map".to_owned(),
             region_shown: false,
             failed_before: 0,
+            last_goal: None,
         }
     }
 
@@ -149,11 +152,11 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         if let (Some(record), Some(map)) = (&decision.record, robot.received_map()) {
             self.frontiers = record.candidates.len();
             record.why.clone_into(&mut self.message);
-            let is_new_goal =
-                record.candidates.iter().any(|c| c.status == CandidateStatus::Chosen) && record.goal == explorer.goal();
-            if is_new_goal || record.goal.is_none() {
-                self.node.log().once(crate::ros::log::Level::Info, &record.why);
+            // A goal that is kept is no news.
+            if record.goal.is_none() || record.goal != self.last_goal {
+                self.node.log().once(Level::Info, &record.why);
             }
+            self.last_goal = record.goal;
             self.outputs.show_decision(record, explorer, map.grid.info().resolution_m(), &map.frame);
         }
         if let Some(path) = robot.path() {
