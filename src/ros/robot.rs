@@ -94,6 +94,8 @@ pub struct RosRobot {
     pose: Option<Pose>,
     /// Where the robot is was not known in the last observation.
     is_lost: bool,
+    /// A map and the robot's place in it have been known.
+    has_begun: bool,
 }
 
 /// The map as the explorer sees it.
@@ -120,6 +122,7 @@ impl RosRobot {
             latencies_ms: Vec::new(),
             pose: None,
             is_lost: false,
+            has_begun: false,
         }
     }
 
@@ -325,14 +328,24 @@ fn frame_of(map: &Option<KnownMap>) -> &str {
 }
 
 impl Robot for RosRobot {
+    /// The first observation waits for a map and for the robot's place in it, however
+    /// long it takes: nodes of a launch file begin in any order.
     fn observe(&mut self) -> Result<Observation, RobotError> {
-        let ros_s = self.wait()?;
-        self.take_map();
+        let (mut ros_s, mut pose_in_map);
+        loop {
+            ros_s = self.wait()?;
+            self.take_map();
+            pose_in_map = self.locate(ros_s);
+            self.has_begun |= self.map.is_some() && pose_in_map.is_ok();
+            if self.has_begun {
+                break;
+            }
+        }
         let navigation = self.navigation();
         self.recover(&navigation);
         Ok(Observation {
             stamp_s: self.clock.of(ros_s),
-            pose_in_map: self.locate(ros_s),
+            pose_in_map,
             map: self.map.as_ref().map(|known| known.snapshot.clone()),
             scan: self.scan(),
             navigation,

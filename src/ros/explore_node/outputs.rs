@@ -57,7 +57,7 @@ impl Outputs {
             phase: Phase::WaitingForMap,
             paused: false,
             preset: &preset,
-            message: "waiting for the first map",
+            message: "waiting for the first map and the robot's place in it",
             end: None,
             elapsed_s: 0.0,
             distance_m: 0.0,
