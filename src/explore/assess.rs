@@ -9,7 +9,7 @@ use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose};
 use crate::grid::GridInfo;
 use crate::planning::PathField;
-use crate::selection::{Candidate, GoalSelector, SelectionContext};
+use crate::selection::{Candidate, GoalSelector, Needs, SelectionContext};
 
 /// A frontier, what is recorded of it, and the candidate if the robot could go there.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub struct Surroundings<'a> {
     pub settings: &'a ExplorerSettings,
     /// Where the frontiers' cells lie.
     pub info: &'a GridInfo,
+    /// What the strategy needs to know.
+    pub needs: Needs,
     /// How far it is to everywhere; `None` when the robot stands where it cannot.
     pub field: Option<&'a PathField>,
     /// Places to leave alone.
@@ -43,7 +45,7 @@ pub struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// Assesses one frontier.
     pub fn assess(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Assessed {
-        let settings = self.settings;
+        let (settings, needs) = (self.settings, self.needs);
         let target = settings.goal.representative.of(frontier, self.info, self.robot.position());
         let distance_m = self.robot.distance_to(target);
         let goal = self.field.and_then(|field| {
@@ -55,9 +57,9 @@ impl Surroundings<'_> {
             goal,
             size_cells: frontier.cells.len(),
             size_m,
-            radius_m: frontier.enclosing_circle(self.info).map_or(0.0, |circle| circle.radius_m),
+            radius_m: needs.radius.then(|| frontier.enclosing_circle(self.info).map_or(0.0, |circle| circle.radius_m)),
             distance_m,
-            nearest_m: self.nearest_m(frontier),
+            nearest_m: needs.nearest.then(|| self.nearest_m(frontier)),
             way_m: self.way_m(&goal),
         });
         let taboo = self.blacklist.check(target, self.now_s);

@@ -121,9 +121,11 @@ impl Lookout {
         self.frontiers = in_metres(&frontiers, grid.info());
         // A robot that stands where it cannot reaches nothing: the recovery turn and
         // the next map may free it.
-        let search = if self.selector.needs_ways() { PathField::new } else { PathField::reach_only };
+        let needs = self.selector.needs();
+        let search = if needs.way { PathField::new } else { PathField::reach_only };
         let field = search(Arc::clone(&costmap), &robot).ok();
-        let surroundings = Surroundings { settings, info: grid.info(), field: field.as_ref(), blacklist, robot, now_s };
+        let surroundings =
+            Surroundings { settings, info: grid.info(), needs, field: field.as_ref(), blacklist, robot, now_s };
         let standing = &mut self.standing;
         let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
         let eligible = rank(&mut assessed, &mut *self.selector, robot);

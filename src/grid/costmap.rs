@@ -1,6 +1,6 @@
 //! Costs of standing in a cell: costmap_2d's static and inflation layers.
 
-use super::{Cell, CellState, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells_within};
+use super::{Cell, GridInfo, OccupancyGrid, Thresholds, near, squared_distance_cells};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -72,25 +72,30 @@ impl Costmap {
     #[must_use]
     pub fn inflate(grid: &OccupancyGrid, thresholds: &Thresholds, inflation: &Inflation) -> Self {
         let info = *grid.info();
-        // Maps are inflated every second: a cell is classified by looking it up.
-        let mut states = [CellState::Unknown; 256];
-        for value in i8::MIN..=i8::MAX {
-            states[usize::from(value as u8)] = thresholds.classify(value);
-        }
-        let state = |value: i8| states[usize::from(value as u8)];
-        let data = grid.data();
         let reach_cells = inflation.reach_cells(info.resolution_m());
-        let squared = squared_distance_cells_within(&info, reach_cells, |i| state(data[i]) == CellState::Occupied);
         let table = inflation.table(info.resolution_m());
-        let costs = data
-            .iter()
-            .zip(&squared)
-            .map(|(&value, &squared)| {
-                let inflated = table.get(squared as usize).copied().unwrap_or(FREE_COST);
-                let is_unknown = state(value) == CellState::Unknown && inflated < INSCRIBED_COST;
-                if is_unknown { UNKNOWN_COST } else { inflated }
-            })
-            .collect();
+        // Maps are inflated every second: the unknown is found by comparisons, many cells
+        // at a time.
+        let Thresholds { free_max, occupied_min } = *thresholds;
+        let is_unknown = |value: i8| (value < occupied_min) & ((value < 0) | (value > free_max));
+        let cost = |value: i8, squared: usize| {
+            let inflated = table.get(squared).copied().unwrap_or(FREE_COST);
+            if is_unknown(value) & (inflated < INSCRIBED_COST) { UNKNOWN_COST } else { inflated }
+        };
+        let is_obstacle = |value: i8| value >= occupied_min;
+        let mut costs = Vec::with_capacity(info.len());
+        if reach_cells > near::LONGEST_LIMIT {
+            let squared = squared_distance_cells(&info, |index| is_obstacle(grid.data()[index]));
+            costs.extend(grid.data().iter().zip(&squared).map(|(&value, &squared)| cost(value, squared as usize)));
+            return Self { info, costs };
+        }
+        let mut obstacles: Vec<u8> =
+            grid.data().iter().map(|&value| if is_obstacle(value) { 0 } else { u8::MAX }).collect();
+        let mut rows = grid.data().chunks_exact(info.width());
+        near::for_each_row(info.width(), &mut obstacles, reach_cells, |squared| {
+            let row = rows.next().unwrap_or_default();
+            costs.extend(row.iter().zip(squared).map(|(&value, &squared)| cost(value, squared as usize)));
+        });
         Self { info, costs }
     }
 
@@ -146,6 +151,15 @@ mod tests {
         let costmap = Costmap::inflate(&grid, &Thresholds::default(), &INFLATION);
         // 252 e^-1 = 92.7, 252 e^-2 = 34.1; beyond the inflation radius nothing.
         assert_eq!(costmap.costs(), &[254, 253, 92, 34, 0, 0, 0]);
+    }
+
+    #[test]
+    fn costs_that_reach_far_are_the_same() {
+        let grid = OccupancyGrid::from_ascii("#......?").unwrap();
+        let far = Inflation { inflation_radius_m: 60.0, ..INFLATION };
+        let costmap = Costmap::inflate(&grid, &Thresholds::default(), &far);
+        // 252 e^-3 = 12.5, 252 e^-4 = 4.6, 252 e^-5 = 1.7
+        assert_eq!(costmap.costs(), &[254, 253, 92, 34, 12, 4, 1, 255]);
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! How far it is from the robot to everywhere at once.
 
 use super::PlanError;
+use super::canonical::CanonicalSearch;
 use super::endpoints::start_index;
-use super::lattice::{Lattice, STRAIGHT};
-use super::search::Search;
+use super::lattice::STRAIGHT;
+use super::reach::connected;
 use crate::geometry::Pose;
-use crate::grid::{Cell, Costmap, INSCRIBED_COST};
+use crate::grid::{BitPlane, Cell, Costmap};
 use std::sync::Arc;
 
 /// Where the robot can get to, and if asked for the cheapest way to every cell of it: one
@@ -19,9 +20,9 @@ pub struct PathField {
 #[derive(Clone, Debug)]
 enum Kind {
     /// Which cells are reached.
-    Reach(Vec<bool>),
+    Reach(BitPlane),
     /// With what it costs to get there.
-    Ways(Search),
+    Ways(CanonicalSearch),
 }
 
 impl PathField {
@@ -31,8 +32,8 @@ impl PathField {
     /// [`PlanError::StartOutsideMap`] or [`PlanError::StartOccupied`].
     pub fn new(costmap: Arc<Costmap>, robot_in_map: &Pose) -> Result<Self, PlanError> {
         let start = start_index(&costmap, robot_in_map)?;
-        let mut search = Search::default();
-        search.run(&Lattice::new(&costmap), start, None, false);
+        let mut search = CanonicalSearch::default();
+        search.run(&costmap, start);
         Ok(Self { costmap, kind: Kind::Ways(search) })
     }
 
@@ -55,11 +56,10 @@ impl PathField {
     /// Whether the robot can get to a cell.
     #[must_use]
     pub fn reaches(&self, cell: Cell) -> bool {
-        let index = self.costmap.info().index(cell);
-        index.is_some_and(|index| match &self.kind {
-            Kind::Reach(reach) => reach.get(index).copied().unwrap_or(false),
-            Kind::Ways(search) => search.cost(index).is_some(),
-        })
+        match &self.kind {
+            Kind::Reach(reach) => reach.contains(cell),
+            Kind::Ways(search) => self.costmap.info().index(cell).is_some_and(|index| search.cost(index).is_some()),
+        }
     }
 
     /// Cost of the cheapest way to a cell, as the number of open cells that cost as
@@ -72,43 +72,6 @@ impl PathField {
             Kind::Ways(search) => search.cost(index).map(|cost| f64::from(cost) / f64::from(STRAIGHT)),
         }
     }
-}
-
-/// The passable cells connected with `start` along their sides. A diagonal step of the
-/// lattice needs both cells beside it, so these are the cells that it reaches.
-fn connected(costmap: &Costmap, start: usize) -> Vec<bool> {
-    let (costs, width) = (costmap.costs(), costmap.info().width());
-    let mut reach = vec![false; costs.len()];
-    let mut open = vec![start];
-    while let Some(seed) = open.pop() {
-        if reach[seed] {
-            continue;
-        }
-        // A whole run of its row at once; above and below, one seed for each run.
-        let row = seed - seed % width;
-        let is_open = |index: usize, reach: &[bool]| costs[index] < INSCRIBED_COST && !reach[index];
-        let mut first = seed;
-        while first > row && is_open(first - 1, &reach) {
-            first -= 1;
-        }
-        let mut last = seed;
-        while last + 1 < row + width && is_open(last + 1, &reach) {
-            last += 1;
-        }
-        reach[first..=last].fill(true);
-        let rows = [first.checked_sub(width), Some(first + width).filter(|&below| below < costs.len())];
-        for beside in rows.into_iter().flatten() {
-            let mut was_open = false;
-            for index in beside..=beside + last - first {
-                let now_open = is_open(index, &reach);
-                if now_open && !was_open {
-                    open.push(index);
-                }
-                was_open = now_open;
-            }
-        }
-    }
-    reach
 }
 
 #[cfg(test)]

@@ -46,12 +46,18 @@ pub struct Lattice<'a> {
     width: usize,
     /// 2^64 / width, rounded up: multiplying by it divides by the width.
     inverse_width: u64,
-    straight: [u32; COST_SUMS],
-    diagonal: [u32; COST_SUMS],
 }
 
 /// Sums of two passable costs: 0..=504.
 const COST_SUMS: usize = 2 * (INSCRIBED_COST as usize - 1) + 1;
+
+/// What a step costs by the sum of the two cells' costs, in one of the eight directions.
+#[inline]
+pub const fn step_costs(direction: usize) -> &'static [u32; COST_SUMS] {
+    const SIDE: [u32; COST_SUMS] = table(STRAIGHT);
+    const CORNER: [u32; COST_SUMS] = table(DIAGONAL);
+    if direction < 4 { &SIDE } else { &CORNER }
+}
 
 const fn table(length: u32) -> [u32; COST_SUMS] {
     let mut table = [0; COST_SUMS];
@@ -72,8 +78,6 @@ impl<'a> Lattice<'a> {
             costs: costmap.costs(),
             width: info.width(),
             inverse_width: (u64::MAX / info.width() as u64).wrapping_add(1),
-            straight: const { table(STRAIGHT) },
-            diagonal: const { table(DIAGONAL) },
         }
     }
 
@@ -124,9 +128,9 @@ impl<'a> Lattice<'a> {
             if !allowed || self.costs[to] >= INSCRIBED_COST {
                 continue;
             }
-            let table = if direction < 4 { &self.straight } else { &self.diagonal };
             let sum = usize::from(here) + usize::from(self.costs[to]);
-            visit(Step { to, cost: table[sum.min(COST_SUMS - 1)], direction: direction as u8 });
+            let cost = step_costs(direction)[sum.min(COST_SUMS - 1)];
+            visit(Step { to, cost, direction: direction as u8 });
         }
     }
 

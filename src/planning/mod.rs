@@ -3,6 +3,7 @@
 mod astar;
 mod breadth_first;
 mod bucket_queue;
+mod canonical;
 mod d_star_lite;
 mod dijkstra;
 mod endpoints;
@@ -10,6 +11,7 @@ mod field;
 mod hybrid_astar;
 mod hybrid_search;
 mod lattice;
+mod reach;
 mod search;
 mod swept;
 
