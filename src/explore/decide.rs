@@ -4,11 +4,12 @@ use super::assess::{Assessed, Surroundings, rank};
 use super::blacklist::{Blacklist, Taboo};
 use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position};
 use super::settings::ExplorerSettings;
+use super::stages::stage;
 use super::standing::StandingSearch;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector};
 use crate::geometry::{Body, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
-use crate::planning::{GlobalPlanner, PathField};
+use crate::planning::{Astar, GlobalPlanner, Path, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
 use crate::selection::GoalSelector;
 use std::sync::Arc;
@@ -20,6 +21,8 @@ pub struct Choice {
     pub goal: Pose,
     /// The frontier's representative point.
     pub target: Point,
+    /// Whether the goal is only a place on the way there.
+    pub is_stage: bool,
 }
 
 /// What one decision found.
@@ -67,6 +70,7 @@ pub struct Lookout {
     detector: Box<dyn FrontierDetector>,
     selector: Box<dyn GoalSelector>,
     planner: Box<dyn GlobalPlanner>,
+    guide: Astar,
     thresholds: Thresholds,
     inflation: Inflation,
     standing: StandingSearch,
@@ -82,6 +86,7 @@ impl Lookout {
             detector: settings.detector.name.build(&settings.detector_params()),
             selector: settings.selection.build(),
             planner: settings.planner.build(body),
+            guide: Astar::default(),
             thresholds: settings.thresholds,
             inflation,
             standing: StandingSearch::default(),
@@ -143,20 +148,27 @@ impl Lookout {
         Ok(Decided { record, choice, here, left_behind })
     }
 
-    /// Asks the planner in order of rank; what has no path says so in its record.
+    /// Asks the planner in order of rank; what has no path says so in its record. When
+    /// none has, and the planner gave up on some before it knew, part of the way to the
+    /// first of these is taken.
     fn first_with_a_way(&mut self, ranked: &mut [Assessed], costmap: &Costmap, robot: &Pose) -> Option<Choice> {
-        for assessed in ranked {
+        let mut given_up = Vec::new();
+        for (index, assessed) in ranked.iter_mut().enumerate() {
             let Some(goal) = assessed.candidate.as_ref().map(|c| c.goal) else { continue };
             match self.planner.plan(costmap, robot, &goal) {
-                Ok(path) => {
-                    assessed.record.path_m = Some(path.length_m());
-                    assessed.record.status = CandidateStatus::Chosen;
-                    return Some(Choice { goal, target: assessed.target });
+                Ok(path) => return Some(assessed.choose(goal, &path, false)),
+                Err(error) => {
+                    assessed.record.status = CandidateStatus::NoPath;
+                    if matches!(error, PlanError::IterationLimit { .. }) {
+                        given_up.push((index, goal));
+                    }
                 }
-                Err(_) => assessed.record.status = CandidateStatus::NoPath,
             }
         }
-        None
+        given_up.into_iter().find_map(|(index, goal)| {
+            let (place, path) = stage(&mut *self.planner, &mut self.guide, costmap, robot, &goal)?;
+            Some(ranked.get_mut(index)?.choose(place, &path, true))
+        })
     }
 
     /// The costmap that came with the map, or our own, made once for each map.
@@ -172,6 +184,15 @@ impl Lookout {
                 costmap
             }
         }
+    }
+}
+
+impl Assessed {
+    /// Makes it the choice of its decision.
+    fn choose(&mut self, goal: Pose, path: &Path, is_stage: bool) -> Choice {
+        self.record.path_m = Some(path.length_m());
+        self.record.status = CandidateStatus::Chosen;
+        Choice { goal, target: self.target, is_stage }
     }
 }
 
@@ -208,8 +229,9 @@ fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left:
     match choice {
         Some(choice) => {
             let passed_over = if skipped > 0 { format!(", {skipped} before it had no path") } else { String::new() };
+            let part = if choice.is_stage { ": the planner gave up, part of the way" } else { "" };
             format!(
-                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}",
+                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}{part}",
                 left.frontiers, choice.target.x, choice.target.y
             )
         }

@@ -176,12 +176,16 @@ impl Explorer {
         let now_s = observation.stamp_s;
         let patience = self.settings.patience;
         let State::Driving(drive) = &mut self.state else { return None };
-        let target = drive.target;
+        let (target, is_stage) = (drive.target, drive.is_stage);
         let ours = observation.navigation.command == drive.id;
         match &observation.navigation.state {
             NavigationState::Succeeded if ours => {
                 self.counts.goals_reached += 1;
                 self.recoveries_in_a_row = 0;
+                if is_stage {
+                    self.settle(now_s, now_s);
+                    return None;
+                }
                 self.blacklist.record_visit(target);
                 if self.settings.turns.at_goal {
                     self.look_round(now_s);
@@ -262,6 +266,7 @@ impl Explorer {
                 id,
                 goal: choice.goal,
                 target: choice.target,
+                is_stage: choice.is_stage,
                 since_s: now_s,
                 progress,
                 considered_s: map.stamp_s,

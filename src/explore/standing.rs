@@ -50,6 +50,9 @@ impl StandingSearch {
         let costmap = field.costmap();
         let info = costmap.info();
         let reach = info.cells(radius_m).ceil().min(MAX_REACH_CELLS) as i32;
+        if !field.reaches_near(center, reach.unsigned_abs()) {
+            return None;
+        }
         let side = 2 * reach + 1;
         let slots = (side * side) as usize;
         if self.seen.len() != slots || self.search == u32::MAX {

@@ -10,6 +10,7 @@ mod distance;
 mod info;
 mod near;
 mod occupancy;
+mod pack;
 mod raytrace;
 mod state;
 

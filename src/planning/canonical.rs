@@ -8,15 +8,13 @@
 //! directions. That holds where a cell and the one before it have nothing but open space
 //! around them. Elsewhere five of the eight directions are left: the cells beside the
 //! way just come are nearer to the cell before. The costs are those of
-//! [`super::search`]. O(cells) with buckets (Dial 1969, as in [`super::bucket_queue`]);
-//! every step costs at least [`STRAIGHT`], so a bucket is complete when its turn comes.
+//! [`super::search`]. O(cells), with buckets as wide as the cheapest step (Denardo and
+//! Fox, "Shortest-route methods", Operations Research 1979).
 
-use super::lattice::{DIAGONAL, MAX_STEP, STRAIGHT, step_costs};
+use super::lattice::{MAX_STEP, STRAIGHT, step_costs};
 use super::search::UNREACHED;
 use crate::grid::{Costmap, FREE_COST, INSCRIBED_COST, UNKNOWN_COST};
 
-/// Open space all around: a mark in place of the cost [`FREE_COST`].
-const SPACIOUS: u8 = 255;
 /// All eight directions, those of [`crate::grid::NEIGHBOURS_8`].
 const ALL: u8 = 0xff;
 
@@ -52,24 +50,42 @@ const ONWARD_IN_SPACE: [u8; 8] = [
     SOUTH | WEST | SOUTH_WEST,
 ];
 
-/// Keys wait at most [`MAX_STEP`] ahead of the one whose turn it is.
-const RING: usize = (MAX_STEP as usize + 1).next_power_of_two();
+/// A bucket holds the costs that [`STRAIGHT`] steps span: what one of them adds leads to
+/// a later bucket, so that the cells of a bucket can be taken in any order.
+const BUCKET: u32 = STRAIGHT;
+/// Buckets wait no farther ahead than the dearest step leads.
+const RING: usize = (MAX_STEP / BUCKET + 2).next_power_of_two() as usize;
 
-/// The search with its memory.
+/// What is known of a cell: in one place, as all of it is needed at once.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// Cost of the cheapest way so far.
+    way: u32,
+    /// The cell's cost in the costmap.
+    cost: u8,
+    /// In which directions it can be left.
+    open: u8,
+    /// In which directions it is still to be left.
+    onward: u8,
+    /// Whether there is nothing but open space around it.
+    is_spacious: bool,
+}
+
+impl Node {
+    const CLOSED: Self = Self { way: UNREACHED, cost: UNKNOWN_COST, open: 0, onward: 0, is_spacious: false };
+}
+
+/// The search with its memory: 8 bytes a cell.
 #[derive(Clone, Debug, Default)]
 pub struct CanonicalSearch {
     width: usize,
-    /// Cells in a row with the margin, whose first and last column is closed.
+    /// Cells in a row with the margin.
     stride: usize,
-    /// Cost of each cell, with a closed margin all round.
-    costs: Vec<u8>,
-    /// In which directions each cell can be left.
-    open: Vec<u8>,
-    /// In which directions each cell is still to be left.
-    onward: Vec<u8>,
-    /// Cost of the way to each cell.
-    ways: Vec<u32>,
-    buckets: Vec<Vec<u32>>,
+    /// With a closed margin all round.
+    nodes: Vec<Node>,
+    buckets: [Vec<u32>; RING],
+    /// Cells in all buckets.
+    waiting: usize,
 }
 
 impl CanonicalSearch {
@@ -77,33 +93,28 @@ impl CanonicalSearch {
     pub fn run(&mut self, costmap: &Costmap, start: usize) {
         self.prepare(costmap);
         let start = self.place(start);
-        let Some(way) = self.ways.get_mut(start) else { return };
-        *way = 0;
-        self.onward[start] = self.open[start];
-        self.buckets.iter_mut().for_each(Vec::clear);
-        self.buckets.resize(RING, Vec::new());
+        self.nodes[start].way = 0;
+        self.nodes[start].onward = self.nodes[start].open;
         self.buckets[0].push(start as u32);
-        let mut waiting = 1;
-        let mut key = 0;
-        while waiting > 0 {
-            let mut bucket = std::mem::take(&mut self.buckets[key as usize % RING]);
-            waiting -= bucket.len();
+        self.waiting = 1;
+        let mut turn = 0;
+        while self.waiting > 0 {
+            let slot = turn % RING;
+            let mut bucket = std::mem::take(&mut self.buckets[slot]);
+            self.waiting -= bucket.len();
             for &place in &bucket {
-                // Otherwise it was reached more cheaply since.
-                if self.ways[place as usize] == key {
-                    waiting += self.expand(place as usize, key);
-                }
+                self.expand(place as usize);
             }
             bucket.clear();
-            self.buckets[key as usize % RING] = bucket;
-            key += 1;
+            self.buckets[slot] = bucket;
+            turn += 1;
         }
     }
 
     /// Cost of the cheapest way to a cell in lattice units, `None` when there is none.
     #[must_use]
     pub fn cost(&self, index: usize) -> Option<u32> {
-        self.ways.get(self.place(index)).copied().filter(|&cost| cost != UNREACHED)
+        self.nodes.get(self.place(index)).map(|node| node.way).filter(|&way| way != UNREACHED)
     }
 
     /// Where a cell with a row-major index is with the margin.
@@ -111,84 +122,84 @@ impl CanonicalSearch {
         (index / self.width + 1) * self.stride + index % self.width + 1
     }
 
-    /// Takes the steps from a cell; returns how many cells wait for it.
+    /// Takes the steps from a cell that are still to be taken: none when it was in an
+    /// earlier bucket too.
     #[inline]
-    fn expand(&mut self, from: usize, key: u32) -> usize {
+    fn expand(&mut self, from: usize) {
         let stride = self.stride as isize;
         let offsets = [1, -1, stride, -stride, stride + 1, stride - 1, 1 - stride, -1 - stride];
-        let here = self.costs[from];
-        let is_spacious = here == SPACIOUS;
-        let mut directions = self.onward[from];
-        let mut waiting = 0;
+        let mut directions = std::mem::take(&mut self.nodes[from].onward);
+        let here = self.nodes[from];
         while directions != 0 {
-            let direction = directions.trailing_zeros() as usize;
+            let direction = (directions.trailing_zeros() & 7) as usize;
             directions &= directions - 1;
             let to = from.wrapping_add_signed(offsets[direction]);
-            let there = self.costs[to];
-            let (way, onward) = if is_spacious {
-                let step = if direction < 4 { STRAIGHT } else { DIAGONAL };
-                let onward = if there == SPACIOUS { ONWARD_IN_SPACE } else { ONWARD };
-                (key + step, onward[direction])
-            } else {
-                let there = if there == SPACIOUS { FREE_COST } else { there };
-                let step = step_costs(direction)[usize::from(here) + usize::from(there)];
-                (key + step, ONWARD[direction])
-            };
-            let known = self.ways[to];
-            if way < known {
-                self.ways[to] = way;
-                self.onward[to] = onward & self.open[to];
-                self.buckets[way as usize % RING].push(to as u32);
-                waiting += 1;
-            } else if way == known {
+            let there = &mut self.nodes[to];
+            let way = here.way + step_costs(direction)[usize::from(here.cost) + usize::from(there.cost)];
+            let in_space = here.is_spacious && there.is_spacious;
+            let onward = if in_space { &ONWARD_IN_SPACE } else { &ONWARD }[direction] & there.open;
+            if way < there.way {
+                if there.way / BUCKET != way / BUCKET {
+                    self.buckets[(way / BUCKET) as usize % RING].push(to as u32);
+                    self.waiting += 1;
+                }
+                there.way = way;
+                there.onward = onward;
+            } else if way == there.way {
                 // Ways that cost the same may go on in different directions.
-                self.onward[to] |= onward & self.open[to];
+                there.onward |= onward;
             }
         }
-        waiting
     }
 
     /// Lays out the costs with a margin and finds out which steps are open.
     fn prepare(&mut self, costmap: &Costmap) {
         let (width, height) = (costmap.info().width(), costmap.info().height());
         let stride = width + 2;
-        let len = stride * (height + 2);
         self.width = width;
         self.stride = stride;
-        self.costs.clear();
-        self.costs.resize(len, UNKNOWN_COST);
-        let rows = self.costs.chunks_exact_mut(stride).skip(1);
-        for (row, costs) in rows.zip(costmap.costs().chunks_exact(width)) {
-            row[1..=width].copy_from_slice(costs);
+        self.buckets.iter_mut().for_each(Vec::clear);
+        self.nodes.clear();
+        self.nodes.reserve(stride * (height + 2));
+        self.nodes.resize(stride, Node::CLOSED);
+        let closed_row = vec![UNKNOWN_COST; stride];
+        // The rows below, at and above the one in hand, with their margins.
+        let mut rows = [closed_row.clone(), closed_row.clone(), closed_row.clone()];
+        let mut next = costmap.costs().chunks_exact(width);
+        let mut take = |row: &mut [u8]| match next.next() {
+            Some(costs) => row[1..=width].copy_from_slice(costs),
+            None => row.fill(UNKNOWN_COST),
+        };
+        take(&mut rows[2]);
+        let (mut open, mut is_spacious) = (vec![0; width], vec![false; width]);
+        for _ in 0..height {
+            rows.rotate_left(1);
+            take(&mut rows[2]);
+            open_directions(&rows, &mut open, &mut is_spacious);
+            let cells = rows[1][1..=width].iter().zip(&open).zip(&is_spacious);
+            self.nodes.push(Node::CLOSED);
+            self.nodes.extend(cells.map(|((&cost, &open), &is_spacious)| Node {
+                cost,
+                open,
+                is_spacious,
+                ..Node::CLOSED
+            }));
+            self.nodes.push(Node::CLOSED);
         }
-        self.onward.clear();
-        self.onward.resize(len, 0);
-        self.ways.clear();
-        self.ways.resize(len, UNREACHED);
-        self.open.clear();
-        self.open.resize(len, 0);
-        let mut is_spacious = vec![0; len];
-        for y in 1..=height {
-            let row = |y: usize| &self.costs[y * stride..(y + 1) * stride];
-            let at = y * stride + 1..y * stride + 1 + width;
-            let rows = [row(y - 1), row(y), row(y + 1)];
-            open_directions(rows, &mut self.open[at.clone()], &mut is_spacious[at]);
-        }
-        for (cost, spacious) in self.costs.iter_mut().zip(is_spacious) {
-            *cost |= spacious;
-        }
+        self.nodes.resize(stride * (height + 2), Node::CLOSED);
     }
 }
 
-/// The open directions of the inner cells of the middle one of three rows, and
-/// [`SPACIOUS`] for those with nothing but open space around them. Arithmetic without
-/// branches, which the compiler turns into vector code.
-fn open_directions(rows: [&[u8]; 3], open: &mut [u8], is_spacious: &mut [u8]) {
-    let width = open.len();
+/// The open directions of the inner cells of the middle one of three rows, and whether
+/// there is nothing but open space around them. Arithmetic without branches, which the
+/// compiler turns into vector code.
+fn open_directions(rows: &[Vec<u8>; 3], open: &mut [u8], is_spacious: &mut [bool]) {
+    let width = open.len().min(is_spacious.len());
     let part = |row: usize, from: usize| &rows[row][from..from + width];
     let (s_w, s, s_e) = (part(0, 0), part(0, 1), part(0, 2));
     let (w, here, e) = (part(1, 0), part(1, 1), part(1, 2));
     let (n_w, n, n_e) = (part(2, 0), part(2, 1), part(2, 2));
+    let (open, is_spacious) = (&mut open[..width], &mut is_spacious[..width]);
     let is_open = |cost: u8| u8::from(cost < INSCRIBED_COST);
     for x in 0..width {
         let (east, west, north, south) = (is_open(e[x]), is_open(w[x]), is_open(n[x]), is_open(s[x]));
@@ -197,7 +208,7 @@ fn open_directions(rows: [&[u8]; 3], open: &mut [u8], is_spacious: &mut [u8]) {
         let south_corners = (south & east & is_open(s_e[x])) << 6 | (south & west & is_open(s_w[x])) << 7;
         open[x] = sides | north_corners | south_corners;
         let around = here[x] | e[x] | w[x] | n[x] | s[x] | n_e[x] | n_w[x] | s_e[x] | s_w[x];
-        is_spacious[x] = u8::from(around == FREE_COST) * SPACIOUS;
+        is_spacious[x] = around == FREE_COST;
     }
 }
 

@@ -67,12 +67,14 @@ fn flood<'a>(info: &'a GridInfo, from: Cell, open: impl Fn(Cell) -> bool + 'a) -
 }
 
 /// A path along cells: it starts at the robot's own position, passes the cells'
-/// centres, each pose facing the next, and ends at the goal with the goal's heading.
+/// centres, but for that of its own cell, each pose facing the next, and ends at the goal with the goal's heading.
 #[must_use]
 pub fn path_along(info: &GridInfo, cells: &[usize], start: &Pose, goal: &Pose, cost: f64) -> Path {
     let inner = cells.len().saturating_sub(1).max(1);
+    let own = info.cell_at(start.position());
+    let inner = cells.iter().take(inner).map(|&index| info.cell(index)).filter(|&cell| cell != own);
     let mut points: Vec<Point> = vec![start.position()];
-    points.extend(cells.iter().take(inner).skip(1).map(|&index| info.center(info.cell(index))));
+    points.extend(inner.map(|cell| info.center(cell)));
     points.push(goal.position());
     let mut poses: Vec<Pose> = points.windows(2).map(|pair| Pose::facing(pair[0], pair[1])).collect();
     poses.push(*goal);

@@ -1,14 +1,14 @@
 //! Which cells the robot can get to, without the ways.
 
-use crate::grid::{BitPlane, Costmap, INSCRIBED_COST, WORD_CELLS};
+use crate::grid::{BitPlane, Costmap, INSCRIBED_COST};
 
 /// The passable cells connected with `start` along their sides: row by row, one run of
 /// cells at a time (A. R. Smith, "Tint fill", SIGGRAPH 1979), on a plane of bits. A
 /// diagonal step of the lattice needs both cells beside it, so these are the cells that
-/// the lattice reaches. O(cells / 64 + runs) after one pass over the costs.
+/// the lattice reaches. O(cells) to read the costs, and a small part of it for the rest.
 pub fn connected(costmap: &Costmap, start: usize) -> BitPlane {
     let (width, height) = (costmap.info().width(), costmap.info().height());
-    let mut open = passable(costmap);
+    let mut open = BitPlane::of_values(width, costmap.costs(), |cost| cost < INSCRIBED_COST);
     let mut reached = open.clone();
     let mut seeds = vec![(start % width, start / width)];
     while let Some((x, y)) = seeds.pop() {
@@ -33,35 +33,6 @@ pub fn connected(costmap: &Costmap, start: usize) -> BitPlane {
     }
     reached.subtract(&open);
     reached
-}
-
-/// The cells where the robot's centre may be.
-fn passable(costmap: &Costmap) -> BitPlane {
-    let (width, height) = (costmap.info().width(), costmap.info().height());
-    let mut plane = BitPlane::new(width, height);
-    for (y, costs) in costmap.costs().chunks_exact(width).enumerate() {
-        for (word, costs) in plane.row_mut(y).iter_mut().zip(costs.chunks(WORD_CELLS)) {
-            *word = packed(costs);
-        }
-    }
-    plane
-}
-
-/// Bit i says whether the i-th of at most 64 costs is passable. Eight costs at a time:
-/// their truth values, one a byte, are gathered into the top byte by one multiplication
-/// (Warren, "Hacker's Delight", 2012).
-fn packed(costs: &[u8]) -> u64 {
-    const GATHER: u64 = 0x0102_0408_1020_4080;
-    let (eights, rest) = costs.as_chunks::<8>();
-    let is_open = |cost: u8| u8::from(cost < INSCRIBED_COST);
-    let mut word = 0;
-    for (i, eight) in eights.iter().enumerate() {
-        word |= (u64::from_le_bytes(eight.map(is_open)).wrapping_mul(GATHER) >> 56) << (8 * i);
-    }
-    for (i, &cost) in rest.iter().enumerate() {
-        word |= u64::from(is_open(cost)) << (8 * eights.len() + i);
-    }
-    word
 }
 
 #[cfg(test)]

@@ -103,8 +103,16 @@ impl DiffDrive {
 
     fn substep(&mut self, world: &World, command: &Twist, dt_s: f64) {
         self.twist = self.limits.reachable(&self.twist, command, dt_s);
-        let next = self.twist.advance(&self.pose, dt_s);
-        if self.body.fits(world, &next) {
+        let mut next = self.twist.advance(&self.pose, dt_s);
+        let mut fits = self.body.fits(world, &next);
+        if !fits {
+            self.touch();
+            // What stands in the way stops the wheels' push, not their turn.
+            self.twist.linear_mps = 0.0;
+            next = self.twist.advance(&self.pose, dt_s);
+            fits = self.body.fits(world, &next);
+        }
+        if fits {
             self.odometry.advance(&self.twist, dt_s);
             self.pose = next;
             self.distance_m += (self.twist.linear_mps * dt_s).abs();
@@ -112,10 +120,14 @@ impl DiffDrive {
             self.contact = self.contact.filter(|at| !is_clear_of(at, &next));
         } else {
             self.twist = Twist::ZERO;
-            if self.contact.is_none() {
-                self.collisions += 1;
-                self.contact = Some(self.pose);
-            }
+        }
+    }
+
+    /// Counts a collision, once for each contact.
+    fn touch(&mut self) {
+        if self.contact.is_none() {
+            self.collisions += 1;
+            self.contact = Some(self.pose);
         }
     }
 }
