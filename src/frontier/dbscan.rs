@@ -103,27 +103,31 @@ fn cluster(info: &GridInfo, cells: &[Cell], params: &DbscanParams) -> Vec<Vec<Ce
     }
     let offsets: Vec<isize> =
         disc(params.eps_cells).iter().map(|&(dx, dy)| dy as isize * stride as isize + dx as isize).collect();
-    let near = |of: usize| {
-        let (numbers, place) = (&numbers, places[of]);
-        let found = offsets.iter().map(move |&offset| numbers[place.wrapping_add_signed(offset)]);
-        found.filter(|&number| number != NONE).map(|number| number as usize - 1)
+    let is_core = |place: usize| {
+        let near = offsets.iter().filter(|&&offset| numbers[place.wrapping_add_signed(offset)] != NONE);
+        near.count() >= params.min_samples as usize
     };
-    let is_core: Vec<bool> = (0..cells.len()).map(|i| near(i).count() >= params.min_samples as usize).collect();
-    let mut taken = vec![false; cells.len()];
+    let is_core: Vec<bool> = places.iter().map(|&place| is_core(place)).collect();
     let mut clusters = Vec::new();
-    for first in 0..cells.len() {
-        if taken[first] || !is_core[first] {
+    for (first, &place) in places.iter().enumerate() {
+        // The number of a cell is taken away when a cluster takes the cell.
+        if !is_core[first] || std::mem::take(&mut numbers[place]) == NONE {
             continue;
         }
-        taken[first] = true;
         let mut members = vec![first];
         let mut next = 0;
         while let Some(&member) = members.get(next) {
-            // Border cells belong to the cluster and do not carry it on.
-            if is_core[member] {
-                members.extend(near(member).filter(|&other| !std::mem::replace(&mut taken[other], true)));
-            }
             next += 1;
+            // Border cells belong to the cluster and do not carry it on.
+            if !is_core[member] {
+                continue;
+            }
+            for &offset in &offsets {
+                let number = std::mem::take(&mut numbers[places[member].wrapping_add_signed(offset)]);
+                if number != NONE {
+                    members.push(number as usize - 1);
+                }
+            }
         }
         clusters.push(members.into_iter().filter_map(|i| cells.get(i)).copied().collect());
     }

@@ -5,50 +5,14 @@
 //! space a cell has many cheapest ways that differ in the order of their steps alone.
 //! One of them is enough, the one whose diagonal steps come first, so that a cell
 //! entered straight on is left straight on, and one entered diagonally in three
-//! directions. That holds where a cell and the one before it have nothing but open space
-//! around them. Elsewhere five of the eight directions are left: the cells beside the
-//! way just come are nearer to the cell before. The costs are those of
+//! directions. Where costs differ, less can be left out: see [`super::ground`]. The costs are those of
 //! [`super::search`]. O(cells), with buckets as wide as the cheapest step (Denardo and
 //! Fox, "Shortest-route methods", Operations Research 1979).
 
+use super::ground::{Ground, ONWARD, ONWARD_FROM_SPACE, survey};
 use super::lattice::{MAX_STEP, STRAIGHT, step_costs};
 use super::search::UNREACHED;
-use crate::grid::{Costmap, FREE_COST, INSCRIBED_COST, UNKNOWN_COST};
-
-/// All eight directions, those of [`crate::grid::NEIGHBOURS_8`].
-const ALL: u8 = 0xff;
-
-const EAST: u8 = 1;
-const WEST: u8 = 1 << 1;
-const NORTH: u8 = 1 << 2;
-const SOUTH: u8 = 1 << 3;
-const NORTH_EAST: u8 = 1 << 4;
-const NORTH_WEST: u8 = 1 << 5;
-const SOUTH_EAST: u8 = 1 << 6;
-const SOUTH_WEST: u8 = 1 << 7;
-
-/// The directions worth going on in, by the direction in which a cell was entered.
-const ONWARD: [u8; 8] = [
-    ALL & !(WEST | NORTH_WEST | SOUTH_WEST),
-    ALL & !(EAST | NORTH_EAST | SOUTH_EAST),
-    ALL & !(SOUTH | SOUTH_EAST | SOUTH_WEST),
-    ALL & !(NORTH | NORTH_EAST | NORTH_WEST),
-    ALL & !(WEST | SOUTH | SOUTH_WEST),
-    ALL & !(EAST | SOUTH | SOUTH_EAST),
-    ALL & !(WEST | NORTH | NORTH_WEST),
-    ALL & !(EAST | NORTH | NORTH_EAST),
-];
-/// Those in open space.
-const ONWARD_IN_SPACE: [u8; 8] = [
-    EAST,
-    WEST,
-    NORTH,
-    SOUTH,
-    NORTH | EAST | NORTH_EAST,
-    NORTH | WEST | NORTH_WEST,
-    SOUTH | EAST | SOUTH_EAST,
-    SOUTH | WEST | SOUTH_WEST,
-];
+use crate::grid::{Costmap, UNKNOWN_COST};
 
 /// A bucket holds the costs that [`STRAIGHT`] steps span: what one of them adds leads to
 /// a later bucket, so that the cells of a bucket can be taken in any order.
@@ -67,12 +31,12 @@ struct Node {
     open: u8,
     /// In which directions it is still to be left.
     onward: u8,
-    /// Whether there is nothing but open space around it.
-    is_spacious: bool,
+    /// A [`Ground`].
+    ground: u8,
 }
 
 impl Node {
-    const CLOSED: Self = Self { way: UNREACHED, cost: UNKNOWN_COST, open: 0, onward: 0, is_spacious: false };
+    const CLOSED: Self = Self { way: UNREACHED, cost: UNKNOWN_COST, open: 0, onward: 0, ground: Ground::Rough as u8 };
 }
 
 /// The search with its memory: 8 bytes a cell.
@@ -84,8 +48,6 @@ pub struct CanonicalSearch {
     /// With a closed margin all round.
     nodes: Vec<Node>,
     buckets: [Vec<u32>; RING],
-    /// Cells in all buckets.
-    waiting: usize,
 }
 
 impl CanonicalSearch {
@@ -93,20 +55,23 @@ impl CanonicalSearch {
     pub fn run(&mut self, costmap: &Costmap, start: usize) {
         self.prepare(costmap);
         let start = self.place(start);
-        self.nodes[start].way = 0;
-        self.nodes[start].onward = self.nodes[start].open;
-        self.buckets[0].push(start as u32);
-        self.waiting = 1;
+        let stride = self.stride as isize;
+        let offsets = [1, -1, stride, -stride, stride + 1, stride - 1, 1 - stride, -1 - stride];
+        let Self { nodes, buckets, .. } = self;
+        nodes[start].way = 0;
+        nodes[start].onward = nodes[start].open;
+        buckets[0].push(start as u32);
+        let mut waiting = 1;
         let mut turn = 0;
-        while self.waiting > 0 {
+        while waiting > 0 {
             let slot = turn % RING;
-            let mut bucket = std::mem::take(&mut self.buckets[slot]);
-            self.waiting -= bucket.len();
+            let mut bucket = std::mem::take(&mut buckets[slot]);
+            waiting -= bucket.len();
             for &place in &bucket {
-                self.expand(place as usize);
+                waiting += expand(nodes, buckets, &offsets, place as usize);
             }
             bucket.clear();
-            self.buckets[slot] = bucket;
+            buckets[slot] = bucket;
             turn += 1;
         }
     }
@@ -120,36 +85,6 @@ impl CanonicalSearch {
     /// Where a cell with a row-major index is with the margin.
     const fn place(&self, index: usize) -> usize {
         (index / self.width + 1) * self.stride + index % self.width + 1
-    }
-
-    /// Takes the steps from a cell that are still to be taken: none when it was in an
-    /// earlier bucket too.
-    #[inline]
-    fn expand(&mut self, from: usize) {
-        let stride = self.stride as isize;
-        let offsets = [1, -1, stride, -stride, stride + 1, stride - 1, 1 - stride, -1 - stride];
-        let mut directions = std::mem::take(&mut self.nodes[from].onward);
-        let here = self.nodes[from];
-        while directions != 0 {
-            let direction = (directions.trailing_zeros() & 7) as usize;
-            directions &= directions - 1;
-            let to = from.wrapping_add_signed(offsets[direction]);
-            let there = &mut self.nodes[to];
-            let way = here.way + step_costs(direction)[usize::from(here.cost) + usize::from(there.cost)];
-            let in_space = here.is_spacious && there.is_spacious;
-            let onward = if in_space { &ONWARD_IN_SPACE } else { &ONWARD }[direction] & there.open;
-            if way < there.way {
-                if there.way / BUCKET != way / BUCKET {
-                    self.buckets[(way / BUCKET) as usize % RING].push(to as u32);
-                    self.waiting += 1;
-                }
-                there.way = way;
-                there.onward = onward;
-            } else if way == there.way {
-                // Ways that cost the same may go on in different directions.
-                there.onward |= onward;
-            }
-        }
     }
 
     /// Lays out the costs with a margin and finds out which steps are open.
@@ -171,45 +106,49 @@ impl CanonicalSearch {
             None => row.fill(UNKNOWN_COST),
         };
         take(&mut rows[2]);
-        let (mut open, mut is_spacious) = (vec![0; width], vec![false; width]);
+        let (mut open, mut ground) = (vec![0; width], vec![0; width]);
         for _ in 0..height {
             rows.rotate_left(1);
             take(&mut rows[2]);
-            open_directions(&rows, &mut open, &mut is_spacious);
-            let cells = rows[1][1..=width].iter().zip(&open).zip(&is_spacious);
+            survey(&rows, &mut open, &mut ground);
+            let cells = rows[1][1..=width].iter().zip(&open).zip(&ground);
             self.nodes.push(Node::CLOSED);
-            self.nodes.extend(cells.map(|((&cost, &open), &is_spacious)| Node {
-                cost,
-                open,
-                is_spacious,
-                ..Node::CLOSED
-            }));
+            self.nodes.extend(cells.map(|((&cost, &open), &ground)| Node { cost, open, ground, ..Node::CLOSED }));
             self.nodes.push(Node::CLOSED);
         }
         self.nodes.resize(stride * (height + 2), Node::CLOSED);
     }
 }
 
-/// The open directions of the inner cells of the middle one of three rows, and whether
-/// there is nothing but open space around them. Arithmetic without branches, which the
-/// compiler turns into vector code.
-fn open_directions(rows: &[Vec<u8>; 3], open: &mut [u8], is_spacious: &mut [bool]) {
-    let width = open.len().min(is_spacious.len());
-    let part = |row: usize, from: usize| &rows[row][from..from + width];
-    let (s_w, s, s_e) = (part(0, 0), part(0, 1), part(0, 2));
-    let (w, here, e) = (part(1, 0), part(1, 1), part(1, 2));
-    let (n_w, n, n_e) = (part(2, 0), part(2, 1), part(2, 2));
-    let (open, is_spacious) = (&mut open[..width], &mut is_spacious[..width]);
-    let is_open = |cost: u8| u8::from(cost < INSCRIBED_COST);
-    for x in 0..width {
-        let (east, west, north, south) = (is_open(e[x]), is_open(w[x]), is_open(n[x]), is_open(s[x]));
-        let sides = east | west << 1 | north << 2 | south << 3;
-        let north_corners = (north & east & is_open(n_e[x])) << 4 | (north & west & is_open(n_w[x])) << 5;
-        let south_corners = (south & east & is_open(s_e[x])) << 6 | (south & west & is_open(s_w[x])) << 7;
-        open[x] = sides | north_corners | south_corners;
-        let around = here[x] | e[x] | w[x] | n[x] | s[x] | n_e[x] | n_w[x] | s_e[x] | s_w[x];
-        is_spacious[x] = around == FREE_COST;
+/// Takes the steps from a cell that are still to be taken: none when it was in an
+/// earlier bucket too. Returns how many cells wait for it.
+#[inline]
+fn expand(nodes: &mut [Node], buckets: &mut [Vec<u32>; RING], offsets: &[isize; 8], from: usize) -> usize {
+    let mut directions = std::mem::take(&mut nodes[from].onward);
+    let here = nodes[from];
+    let in_space = here.ground == Ground::Space as u8;
+    let onward = if in_space { &ONWARD_FROM_SPACE } else { &ONWARD };
+    let mut waiting = 0;
+    while directions != 0 {
+        let direction = (directions.trailing_zeros() & 7) as usize;
+        directions &= directions - 1;
+        let to = from.wrapping_add_signed(offsets[direction]);
+        let there = &mut nodes[to];
+        let way = here.way + step_costs(direction)[usize::from(here.cost) + usize::from(there.cost)];
+        let onward = onward[usize::from(there.ground)][direction] & there.open;
+        if way < there.way {
+            if there.way / BUCKET != way / BUCKET {
+                buckets[(way / BUCKET) as usize % RING].push(to as u32);
+                waiting += 1;
+            }
+            there.way = way;
+            there.onward = onward;
+        } else if way == there.way {
+            // Ways that cost the same may go on in different directions.
+            there.onward |= onward;
+        }
     }
+    waiting
 }
 
 #[cfg(test)]
@@ -238,6 +177,19 @@ mod tests {
             start in 0usize..400,
         ) {
             let info = GridInfo::new(width, 400 / width, 1.0, Pose::default()).unwrap();
+            let mut costs = costs[..info.len()].to_vec();
+            let start = start % info.len();
+            costs[start] = 0;
+            costs_are_those_of_the_plain_search(&Costmap::from_costs(info, costs).unwrap(), start);
+        }
+
+        #[test]
+        fn calm_ground_costs_the_same(
+            width in 1u32..40,
+            costs in proptest::collection::vec(prop_oneof![30 => 60u8..124, 2 => 0u8..253, 1 => Just(254)], 800),
+            start in 0usize..800,
+        ) {
+            let info = GridInfo::new(width, 800 / width, 1.0, Pose::default()).unwrap();
             let mut costs = costs[..info.len()].to_vec();
             let start = start % info.len();
             costs[start] = 0;

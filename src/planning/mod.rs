@@ -8,6 +8,7 @@ mod d_star_lite;
 mod dijkstra;
 mod endpoints;
 mod field;
+mod ground;
 mod hybrid_astar;
 mod hybrid_search;
 mod lattice;

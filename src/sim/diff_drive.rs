@@ -188,6 +188,19 @@ mod tests {
     }
 
     #[test]
+    fn a_disc_that_pushes_against_a_wall_still_turns() {
+        let mut robot = body(&Footprint::RadiusM(0.2), Pose::new(5.0, 2.0, 0.0));
+        for _ in 0..40 {
+            robot.drive(&hall(), &Twist::new(0.5, 0.0), 0.1);
+        }
+        let at = robot.pose();
+        for _ in 0..10 {
+            robot.drive(&hall(), &Twist::new(0.5, 1.0), 0.1);
+        }
+        assert!(robot.pose().yaw > 0.5 && robot.pose().x - at.x < 0.05, "{:?}", robot.pose());
+    }
+
+    #[test]
     fn a_rectangle_cannot_turn_in_a_narrow_place() {
         let long = Footprint::PolygonM(vec![[-0.5, -0.1], [0.5, -0.1], [0.5, 0.1], [-0.5, 0.1]]);
         let mut robot = body(&long, Pose::new(3.0, 0.25, 0.0));
