@@ -1,12 +1,14 @@
 //! From a path to velocity commands (floor 1): one file for each controller.
 
 mod dwa;
+mod dwa_config;
 mod outline;
 mod path_follower;
 mod progress;
 mod surroundings;
 
-pub use dwa::{Dwa, DwaConfig, DwaWeights};
+pub use dwa::Dwa;
+pub use dwa_config::{DwaConfig, DwaWeights};
 pub use path_follower::{FollowerConfig, PathFollower};
 
 use crate::geometry::{Body, Path, Pose, Twist};

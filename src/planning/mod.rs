@@ -4,6 +4,7 @@ mod astar;
 mod breadth_first;
 mod bucket_queue;
 mod canonical;
+mod change;
 mod d_star_lite;
 mod dijkstra;
 mod endpoints;
