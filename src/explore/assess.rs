@@ -22,6 +22,8 @@ pub struct Assessed {
     pub candidate: Option<Candidate>,
     /// Why it is left alone, when its status is `Taboo`.
     pub taboo: Option<Taboo>,
+    /// What ranks it, once it has been scored.
+    pub total: f64,
 }
 
 /// What an assessment looks at besides the frontiers.
@@ -87,7 +89,7 @@ impl Surroundings<'_> {
             scores: Default::default(),
             status,
         };
-        Assessed { record, target, candidate, taboo }
+        Assessed { record, target, candidate, taboo, total: f64::INFINITY }
     }
 
     fn nearest_m(&self, frontier: &Frontier) -> f64 {
@@ -108,13 +110,11 @@ pub fn rank(assessed: &mut [Assessed], selector: &mut dyn GoalSelector, robot: P
     let (first, _) = assessed.split_at_mut(eligible);
     let candidates: Vec<Candidate> = first.iter().filter_map(|a| a.candidate.clone()).collect();
     let scores = selector.score(&candidates, &SelectionContext { robot_in_map: robot });
-    let mut total = std::collections::BTreeMap::new();
     for (assessed, score) in first.iter_mut().zip(scores) {
-        total.insert(assessed.record.id, score.total);
+        assessed.total = score.total;
         assessed.record.scores = score.parts;
         assessed.record.scores.insert("total", score.total);
     }
-    let total = |a: &Assessed| total.get(&a.record.id).copied().unwrap_or(f64::INFINITY);
-    first.sort_by(|a, b| total(a).total_cmp(&total(b)).then(a.record.id.cmp(&b.record.id)));
+    first.sort_by(|a, b| a.total.total_cmp(&b.total).then(a.record.id.cmp(&b.record.id)));
     eligible
 }

@@ -72,32 +72,28 @@ impl Costmap {
     #[must_use]
     pub fn inflate(grid: &OccupancyGrid, thresholds: &Thresholds, inflation: &Inflation) -> Self {
         let info = *grid.info();
-        let reach_cells = inflation.reach_cells(info.resolution_m());
         let table = inflation.table(info.resolution_m());
         // Maps are inflated every second: the unknown is found by comparisons, many cells
         // at a time.
         let Thresholds { free_max, occupied_min } = *thresholds;
         let is_unknown = |value: i8| (value < occupied_min) & ((value < 0) | (value > free_max));
-        let inflated = |squared: usize| table.get(squared).copied().unwrap_or(FREE_COST);
         let cost = |(&value, inflated): (&i8, u8)| {
             if is_unknown(value) & (inflated < INSCRIBED_COST) { UNKNOWN_COST } else { inflated }
         };
         let is_obstacle = |value: i8| value >= occupied_min;
         let mut costs = Vec::with_capacity(info.len());
-        if reach_cells > near::LONGEST_LIMIT {
+        if inflation.reach_cells(info.resolution_m()) as usize > near::LONGEST_LIMIT {
             let squared = squared_distance_cells(&info, |index| is_obstacle(grid.data()[index]));
-            costs.extend(grid.data().iter().zip(squared.iter().map(|&squared| inflated(squared as usize))).map(cost));
+            let inflated = squared.iter().map(|&squared| table.get(squared as usize).copied().unwrap_or(FREE_COST));
+            costs.extend(grid.data().iter().zip(inflated).map(cost));
             return Self { info, costs };
         }
         let mut obstacles: Vec<u8> =
             grid.data().iter().map(|&value| if is_obstacle(value) { 0 } else { u8::MAX }).collect();
         let mut rows = grid.data().chunks_exact(info.width());
-        let mut row_inflated = Vec::with_capacity(info.width());
-        near::for_each_row(info.width(), &mut obstacles, reach_cells, |squared| {
-            row_inflated.clear();
-            row_inflated.extend(squared.iter().map(|&squared| inflated(squared as usize)));
+        near::for_each_row(info.width(), &mut obstacles, &table, |inflated| {
             let row = rows.next().unwrap_or_default();
-            costs.extend(row.iter().zip(row_inflated.iter().copied()).map(cost));
+            costs.extend(row.iter().zip(inflated.iter().copied()).map(cost));
         });
         Self { info, costs }
     }

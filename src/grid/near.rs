@@ -8,18 +8,69 @@
 
 /// The longest limit, cells: its square must fit 16 bits with a sign, and envelopes are
 /// faster beyond.
-pub const LONGEST_LIMIT: u32 = 48;
+pub const LONGEST_LIMIT: usize = 48;
 
-/// Calls `visit` for each row of a grid of `width` columns with the squared distances
-/// in cells from its cells to the nearest obstacle: exact up to `limit` cells, which is
-/// at most [`LONGEST_LIMIT`], and `limit^2 + 1` beyond. Obstacles are 0 and all else
-/// 255 in `obstacles`, row-major; it is used up.
-pub fn for_each_row(width: usize, obstacles: &mut [u8], limit: u32, mut visit: impl FnMut(&[i16])) {
-    let limit = limit.min(LONGEST_LIMIT) as u8;
+/// Calls `visit` for each row of a grid of `width` columns with a value for each cell: the
+/// one that `by_squared` has for the squared distance in cells to the nearest obstacle,
+/// and beyond its end 0. Its length must be `limit^2 + 1` for a limit of at most
+/// [`LONGEST_LIMIT`] cells. Obstacles are 0 and all else 255 in `obstacles`, row-major;
+/// it is used up.
+pub fn for_each_row(width: usize, obstacles: &mut [u8], by_squared: &[u8], visit: impl FnMut(&[u8])) {
+    let limit = by_squared.len().saturating_sub(1).isqrt().min(LONGEST_LIMIT) as u8;
     vertical_distances(width, obstacles);
-    let mut sliding = Sliding::new(width, limit);
-    for heights in obstacles.chunks_exact(width) {
-        visit(sliding.squares_of(heights));
+    if limit <= BYTE_LIMIT {
+        slide_rows::<u8>(width, obstacles, limit, by_squared, visit);
+    } else {
+        slide_rows::<i16>(width, obstacles, limit, by_squared, visit);
+    }
+}
+
+/// Up to this limit a squared distance fits a byte.
+const BYTE_LIMIT: u8 = 15;
+
+fn slide_rows<T: Square>(width: usize, heights: &[u8], limit: u8, by_squared: &[u8], mut visit: impl FnMut(&[u8])) {
+    let mut sliding = Sliding::<T>::new(width, limit);
+    let mut values = Vec::with_capacity(width);
+    for heights in heights.chunks_exact(width) {
+        values.clear();
+        let squares = sliding.squares_of(heights).iter();
+        values.extend(squares.map(|squared| by_squared.get(squared.index()).copied().unwrap_or_default()));
+        visit(&values);
+    }
+}
+
+/// A number that holds squared distances and more than the largest of them.
+trait Square: Copy + Ord {
+    fn of(height: u8) -> Self;
+    fn plus(self, other: Self) -> Self;
+    fn index(self) -> usize;
+}
+
+impl Square for u8 {
+    fn of(height: u8) -> Self {
+        height.saturating_mul(height)
+    }
+
+    fn plus(self, other: Self) -> Self {
+        self.saturating_add(other)
+    }
+
+    fn index(self) -> usize {
+        usize::from(self)
+    }
+}
+
+impl Square for i16 {
+    fn of(height: u8) -> Self {
+        Self::from(height).saturating_mul(Self::from(height))
+    }
+
+    fn plus(self, other: Self) -> Self {
+        self.saturating_add(other)
+    }
+
+    fn index(self) -> usize {
+        usize::from(self.unsigned_abs())
     }
 }
 
@@ -42,22 +93,22 @@ fn vertical_distances(width: usize, distances: &mut [u8]) {
 }
 
 /// One row at a time.
-struct Sliding {
+struct Sliding<T> {
     limit: u8,
     /// More than any squared distance within the limit: stands for all that is farther.
-    far: i16,
+    far: T,
     /// Squared vertical distances, with `limit` far ones before and after.
-    squares: Vec<i16>,
-    least: Vec<i16>,
+    squares: Vec<T>,
+    least: Vec<T>,
 }
 
-impl Sliding {
+impl<T: Square> Sliding<T> {
     fn new(width: usize, limit: u8) -> Self {
-        let far = i16::from(limit) * i16::from(limit) + 1;
+        let far = T::of(limit + 1);
         Self { limit, far, squares: vec![far; width + 2 * usize::from(limit)], least: vec![far; width] }
     }
 
-    fn squares_of(&mut self, heights: &[u8]) -> &[i16] {
+    fn squares_of(&mut self, heights: &[u8]) -> &[T] {
         let (width, limit, far) = (heights.len(), usize::from(self.limit), self.far);
         self.least.fill(far);
         let is_near = |&height: &u8| height <= self.limit;
@@ -65,22 +116,18 @@ impl Sliding {
             return &self.least;
         };
         for (square, &height) in self.squares[limit..limit + width].iter_mut().zip(heights) {
-            let height = i16::from(height.min(self.limit + 1));
-            *square = (height * height).min(far);
+            *square = T::of(height.min(self.limit + 1));
         }
         // Only these columns are within the limit of one that is.
         let (from, to) = (first.saturating_sub(limit), (last + limit + 1).min(width));
         let least = &mut self.least[from..to];
         least.copy_from_slice(&self.squares[limit + from..limit + to]);
-        for dx in 1..=limit {
-            let add = (dx * dx) as i16;
+        for dx in 1..=self.limit {
+            let (add, dx) = (T::of(dx), usize::from(dx));
             let (left, right) = (&self.squares[limit - dx + from..], &self.squares[limit + dx + from..]);
             for ((least, &left), &right) in least.iter_mut().zip(left).zip(right) {
-                *least = (*least).min(left.min(right) + add);
+                *least = (*least).min(left.min(right).plus(add));
             }
-        }
-        for least in least {
-            *least = (*least).min(far);
         }
         &self.least
     }
@@ -99,17 +146,16 @@ mod tests {
             (width, cells) in (1usize..40, 1usize..40).prop_flat_map(|(w, h)| {
                 (Just(w), proptest::collection::vec(proptest::bool::weighted(0.03), w * h))
             }),
-            limit in 0u32..=LONGEST_LIMIT,
+            limit in 0usize..=LONGEST_LIMIT,
         ) {
             let info = GridInfo::new(width as u32, (cells.len() / width) as u32, 1.0, Pose::default()).unwrap();
-            let exact = squared_distance_cells(&info, |i| cells[i]);
+            let by_squared: Vec<u8> = (0..=limit * limit).map(|squared| 1 + (squared % 251) as u8).collect();
             let mut obstacles: Vec<u8> = cells.iter().map(|&is_obstacle| if is_obstacle { 0 } else { 255 }).collect();
             let mut near = Vec::new();
-            for_each_row(width, &mut obstacles, limit, |row| near.extend_from_slice(row));
-            let far = limit * limit + 1;
-            let expected: Vec<u32> = exact.iter().map(|&squared| squared.min(far)).collect();
-            let found: Vec<u32> = near.iter().map(|&squared| u32::from(squared.unsigned_abs())).collect();
-            prop_assert_eq!(found, expected);
+            for_each_row(width, &mut obstacles, &by_squared, |row| near.extend_from_slice(row));
+            let exact = squared_distance_cells(&info, |i| cells[i]);
+            let value = |&squared: &u32| by_squared.get(squared as usize).copied().unwrap_or(0);
+            prop_assert_eq!(near, exact.iter().map(value).collect::<Vec<u8>>());
         }
     }
 }

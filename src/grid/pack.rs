@@ -3,27 +3,35 @@
 use super::{BitPlane, WORD_CELLS};
 
 impl BitPlane {
-    /// The plane of the cells whose values are such, of rows of `width` values. The bits
-    /// of eight values at a time, one in each byte, are gathered by one multiplication
-    /// (Warren, "Hacker's Delight", 2012). O(values).
+    /// The plane of the cells whose values are such, of rows of `width` values. O(values):
+    /// many are compared at a time; the bits of eight, one in each byte, are gathered by
+    /// one multiplication (Warren, "Hacker's Delight", 2012).
     #[must_use]
     pub fn of_values<T: Copy>(width: usize, values: &[T], is_set: impl Fn(T) -> bool) -> Self {
-        const GATHER: u64 = 0x0102_0408_1020_4080;
         let mut plane = Self::new(width, values.len() / width);
-        let byte = |value: T| u8::from(is_set(value));
         for (y, row) in values.chunks_exact(width).enumerate() {
-            for (word, values) in plane.row_mut(y).iter_mut().zip(row.chunks(WORD_CELLS)) {
-                let (eights, rest) = values.as_chunks::<8>();
-                for (i, eight) in eights.iter().enumerate() {
-                    *word |= (u64::from_le_bytes(eight.map(byte)).wrapping_mul(GATHER) >> 56) << (8 * i);
+            let (whole, rest) = row.as_chunks::<WORD_CELLS>();
+            let (words, last) = plane.row_mut(y).split_at_mut(whole.len());
+            for (word, values) in words.iter_mut().zip(whole) {
+                let mut flags = [0; WORD_CELLS];
+                for (flag, &value) in flags.iter_mut().zip(values) {
+                    *flag = u8::from(is_set(value));
                 }
-                for (i, &value) in rest.iter().enumerate() {
-                    *word |= u64::from(byte(value)) << (8 * eights.len() + i);
-                }
+                *word = gathered(&flags);
+            }
+            for (i, &value) in rest.iter().enumerate() {
+                last[0] |= u64::from(is_set(value)) << i;
             }
         }
         plane
     }
+}
+
+/// The lowest bits of the bytes.
+fn gathered(flags: &[u8; WORD_CELLS]) -> u64 {
+    const GATHER: u64 = 0x0102_0408_1020_4080;
+    let eights = flags.as_chunks::<8>().0.iter().enumerate();
+    eights.fold(0, |word, (i, &eight)| word | (u64::from_le_bytes(eight).wrapping_mul(GATHER) >> 56) << (8 * i))
 }
 
 #[cfg(test)]

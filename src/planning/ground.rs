@@ -4,10 +4,8 @@
 //! left out leads by a dearer way than one round the cell, or by one as dear whose
 //! diagonal steps come later (the canonical order of Sturtevant and Rabin 2016).
 
+use super::lattice::ALL_DIRECTIONS as ALL;
 use crate::grid::{FREE_COST, INSCRIBED_COST};
-
-/// All eight directions, those of [`crate::grid::NEIGHBOURS_8`].
-const ALL: u8 = 0xff;
 
 const EAST: u8 = 1;
 const WEST: u8 = 1 << 1;
@@ -50,7 +48,8 @@ pub const ONWARD: [[u8; 8]; 3] = [ONWARD_ROUGH, ONWARD_CALM, ONWARD_CALM];
 /// The same for cells entered from open space.
 pub const ONWARD_FROM_SPACE: [[u8; 8]; 3] = [ONWARD_ROUGH, ONWARD_CALM, ONWARD_IN_SPACE];
 
-const ONWARD_ROUGH: [u8; 8] = [
+/// Where nothing is known of the ground.
+pub const ONWARD_ROUGH: [u8; 8] = [
     ALL & !(WEST | NORTH_WEST | SOUTH_WEST),
     ALL & !(EAST | NORTH_EAST | SOUTH_EAST),
     ALL & !(SOUTH | SOUTH_EAST | SOUTH_WEST),

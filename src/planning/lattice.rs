@@ -17,6 +17,9 @@ pub const DIAGONAL: u32 = 17;
 /// Cost of crossing a free cell in navfn's scale.
 const NEUTRAL: u32 = 50;
 
+/// All eight directions as bits, those of [`crate::grid::NEIGHBOURS_8`] from the lowest on.
+pub const ALL_DIRECTIONS: u8 = 0xff;
+
 /// No step costs more than this.
 pub const MAX_STEP: u32 = step_cost(DIAGONAL, 2 * (INSCRIBED_COST as u32 - 1));
 
@@ -105,7 +108,13 @@ impl<'a> Lattice<'a> {
     /// Calls `visit` with every allowed step from a cell. A diagonal step needs both
     /// cells beside it passable: no corner is cut.
     #[inline]
-    pub fn for_each_step(&self, from: usize, mut visit: impl FnMut(Step)) {
+    pub fn for_each_step(&self, from: usize, visit: impl FnMut(Step)) {
+        self.for_each_step_among(ALL_DIRECTIONS, from, visit);
+    }
+
+    /// The same with the steps in some directions alone, given as bits.
+    #[inline]
+    pub fn for_each_step_among(&self, directions: u8, from: usize, mut visit: impl FnMut(Step)) {
         let x = self.column(from);
         let here = self.costs[from];
         let open = |inside: bool, index: usize| inside && self.costs[index] < INSCRIBED_COST;
@@ -125,7 +134,7 @@ impl<'a> Lattice<'a> {
             (south && west, from.wrapping_sub(self.width + 1)),
         ];
         for (direction, &(allowed, to)) in steps.iter().enumerate() {
-            if !allowed || self.costs[to] >= INSCRIBED_COST {
+            if !allowed || directions >> direction & 1 == 0 || self.costs[to] >= INSCRIBED_COST {
                 continue;
             }
             let sum = usize::from(here) + usize::from(self.costs[to]);
