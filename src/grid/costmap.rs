@@ -73,27 +73,22 @@ impl Costmap {
     pub fn inflate(grid: &OccupancyGrid, thresholds: &Thresholds, inflation: &Inflation) -> Self {
         let info = *grid.info();
         let table = inflation.table(info.resolution_m());
-        // Maps are inflated every second: the unknown is found by comparisons, many cells
-        // at a time.
-        let Thresholds { free_max, occupied_min } = *thresholds;
-        let is_unknown = |value: i8| (value < occupied_min) & ((value < 0) | (value > free_max));
-        let cost = |(&value, inflated): (&i8, u8)| {
-            if is_unknown(value) & (inflated < INSCRIBED_COST) { UNKNOWN_COST } else { inflated }
-        };
-        let is_obstacle = |value: i8| value >= occupied_min;
-        let mut costs = Vec::with_capacity(info.len());
+        let is_obstacle = |value: i8| value >= thresholds.occupied_min;
         if inflation.reach_cells(info.resolution_m()) as usize > near::LONGEST_LIMIT {
             let squared = squared_distance_cells(&info, |index| is_obstacle(grid.data()[index]));
             let inflated = squared.iter().map(|&squared| table.get(squared as usize).copied().unwrap_or(FREE_COST));
-            costs.extend(grid.data().iter().zip(inflated).map(cost));
+            let mut costs: Vec<u8> = inflated.collect();
+            leave_unknown(&mut costs, grid.data(), *thresholds);
             return Self { info, costs };
         }
         let mut obstacles: Vec<u8> =
             grid.data().iter().map(|&value| if is_obstacle(value) { 0 } else { u8::MAX }).collect();
         let mut rows = grid.data().chunks_exact(info.width());
+        let mut costs = Vec::with_capacity(info.len());
         near::for_each_row(info.width(), &mut obstacles, &table, |inflated| {
-            let row = rows.next().unwrap_or_default();
-            costs.extend(row.iter().zip(inflated.iter().copied()).map(cost));
+            let from = costs.len();
+            costs.extend_from_slice(inflated);
+            leave_unknown(&mut costs[from..], rows.next().unwrap_or_default(), *thresholds);
         });
         Self { info, costs }
     }
@@ -134,6 +129,16 @@ impl Costmap {
     #[must_use]
     pub fn cost_at(&self, point_in_map: Point) -> u8 {
         self.cost(self.info.cell_at(point_in_map))
+    }
+}
+
+/// Marks the unknown among cells that are no collision. Maps are inflated every second:
+/// this is arithmetic on many cells at a time.
+fn leave_unknown(costs: &mut [u8], values: &[i8], thresholds: Thresholds) {
+    let Thresholds { free_max, occupied_min } = thresholds;
+    for (cost, &value) in costs.iter_mut().zip(values) {
+        let is_unknown = (value < occupied_min) & ((value < 0) | (value > free_max));
+        *cost = if is_unknown & (*cost < INSCRIBED_COST) { UNKNOWN_COST } else { *cost };
     }
 }
 
