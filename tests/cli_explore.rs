@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use assert_cmd::Command;
+use frontier_explorer::config::Preset;
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::{GridInfo, OccupancyGrid};
 use frontier_explorer::io::{SaveOptions, load_map, save_map};
@@ -84,6 +85,25 @@ fn the_same_seed_gives_the_same_bytes_but_for_wall() {
     };
     assert_eq!(run("a", &noisy), run("b", &noisy));
     assert_ne!(run("a", &noisy).0, run("c", &["--seed", "8", "--lidar-noise", "0.01"]).0);
+}
+
+#[test]
+fn every_preset_repeats_itself_from_the_same_seed() {
+    let folder = tempfile::tempdir().unwrap();
+    let world = rooms(folder.path());
+    for preset in Preset::names() {
+        let run = |name: &str, seed: &str| {
+            let out = folder.path().join(format!("{preset}-{name}"));
+            explore(&world, &out, &["--config", preset, "--seed", seed, "--lidar-noise", "0.01"]).success();
+            let json = std::fs::read_to_string(out.join("run.json")).unwrap();
+            assert!(json.contains("\"end_reason\": \"complete\""), "{preset}");
+            let (run, _) = json.split_once("\"wall\"").unwrap();
+            (run.to_owned(), std::fs::read(out.join("map.pgm")).unwrap())
+        };
+        let first = run("a", "7");
+        assert!(first == run("b", "7"), "{preset}: two runs from one seed differ");
+        assert!(first.0 != run("c", "8").0, "{preset}: two seeds give one run");
+    }
 }
 
 #[test]

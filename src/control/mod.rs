@@ -1,13 +1,15 @@
 //! From a path to velocity commands (floor 1): one file for each controller.
 
 mod dwa;
+mod dwa_config;
 mod guard;
 mod outline;
 mod path_follower;
 mod progress;
 mod surroundings;
 
-pub use dwa::{Dwa, DwaConfig, DwaWeights};
+pub use dwa::Dwa;
+pub use dwa_config::{DwaConfig, DwaWeights};
 pub use guard::StopGuard;
 pub use path_follower::{FollowerConfig, PathFollower};
 

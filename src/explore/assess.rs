@@ -9,7 +9,7 @@ use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose};
 use crate::grid::GridInfo;
 use crate::planning::PathField;
-use crate::selection::{Candidate, GoalSelector, SelectionContext};
+use crate::selection::{Candidate, GoalSelector, Needs, SelectionContext};
 
 /// A frontier, what is recorded of it, and the candidate if the robot could go there.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub struct Assessed {
     pub candidate: Option<Candidate>,
     /// Why it is left alone, when its status is `Taboo`.
     pub taboo: Option<Taboo>,
+    /// What ranks it, once it has been scored.
+    pub total: f64,
 }
 
 /// What an assessment looks at besides the frontiers.
@@ -30,6 +32,8 @@ pub struct Surroundings<'a> {
     pub settings: &'a ExplorerSettings,
     /// Where the frontiers' cells lie.
     pub info: &'a GridInfo,
+    /// What the strategy needs to know.
+    pub needs: Needs,
     /// How far it is to everywhere; `None` when the robot stands where it cannot.
     pub field: Option<&'a PathField>,
     /// Places to leave alone.
@@ -43,7 +47,7 @@ pub struct Surroundings<'a> {
 impl Surroundings<'_> {
     /// Assesses one frontier.
     pub fn assess(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Assessed {
-        let settings = self.settings;
+        let (settings, needs) = (self.settings, self.needs);
         let target = settings.goal.representative.of(frontier, self.info, self.robot.position());
         let distance_m = self.robot.distance_to(target);
         let goal = self.field.and_then(|field| {
@@ -55,9 +59,9 @@ impl Surroundings<'_> {
             goal,
             size_cells: frontier.cells.len(),
             size_m,
-            radius_m: frontier.enclosing_circle(self.info).map_or(0.0, |circle| circle.radius_m),
+            radius_m: needs.radius.then(|| frontier.enclosing_circle(self.info).map_or(0.0, |circle| circle.radius_m)),
             distance_m,
-            nearest_m: self.nearest_m(frontier),
+            nearest_m: needs.nearest.then(|| self.nearest_m(frontier)),
             way_m: self.way_m(&goal),
         });
         let taboo = self.blacklist.check(target, self.now_s);
@@ -85,7 +89,7 @@ impl Surroundings<'_> {
             scores: Default::default(),
             status,
         };
-        Assessed { record, target, candidate, taboo }
+        Assessed { record, target, candidate, taboo, total: f64::INFINITY }
     }
 
     fn nearest_m(&self, frontier: &Frontier) -> f64 {
@@ -106,13 +110,11 @@ pub fn rank(assessed: &mut [Assessed], selector: &mut dyn GoalSelector, robot: P
     let (first, _) = assessed.split_at_mut(eligible);
     let candidates: Vec<Candidate> = first.iter().filter_map(|a| a.candidate.clone()).collect();
     let scores = selector.score(&candidates, &SelectionContext { robot_in_map: robot });
-    let mut total = std::collections::BTreeMap::new();
     for (assessed, score) in first.iter_mut().zip(scores) {
-        total.insert(assessed.record.id, score.total);
+        assessed.total = score.total;
         assessed.record.scores = score.parts;
         assessed.record.scores.insert("total", score.total);
     }
-    let total = |a: &Assessed| total.get(&a.record.id).copied().unwrap_or(f64::INFINITY);
-    first.sort_by(|a, b| total(a).total_cmp(&total(b)).then(a.record.id.cmp(&b.record.id)));
+    first.sort_by(|a, b| a.total.total_cmp(&b.total).then(a.record.id.cmp(&b.record.id)));
     eligible
 }

@@ -4,11 +4,12 @@ use super::assess::{Assessed, Surroundings, rank};
 use super::blacklist::{Blacklist, Taboo};
 use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position, SeenFrontier};
 use super::settings::ExplorerSettings;
+use super::stages::stage;
 use super::standing::StandingSearch;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
 use crate::geometry::{Body, Path, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
-use crate::planning::{GlobalPlanner, PathField};
+use crate::planning::{Astar, GlobalPlanner, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
 use crate::selection::GoalSelector;
 use std::sync::Arc;
@@ -20,6 +21,8 @@ pub struct Choice {
     pub goal: Pose,
     /// The frontier's representative point.
     pub target: Point,
+    /// Whether the goal is only a place on the way there.
+    pub is_stage: bool,
 }
 
 /// What one decision found.
@@ -67,6 +70,7 @@ pub struct Lookout {
     detector: Box<dyn FrontierDetector>,
     selector: Box<dyn GoalSelector>,
     planner: Box<dyn GlobalPlanner>,
+    guide: Astar,
     thresholds: Thresholds,
     inflation: Inflation,
     standing: StandingSearch,
@@ -84,6 +88,7 @@ impl Lookout {
             detector: settings.detector.name.build(&settings.detector_params()),
             selector: settings.selection.build(),
             planner: settings.planner.build(body),
+            guide: Astar::default(),
             thresholds: settings.thresholds,
             inflation,
             standing: StandingSearch::default(),
@@ -139,9 +144,11 @@ impl Lookout {
         self.frontiers = in_metres(&frontiers, grid.info());
         // A robot that stands where it cannot reaches nothing: the recovery turn and
         // the next map may free it.
-        let search = if self.selector.needs_ways() { PathField::new } else { PathField::reach_only };
+        let needs = self.selector.needs();
+        let search = if needs.way { PathField::new } else { PathField::reach_only };
         let field = search(Arc::clone(&costmap), &robot).ok();
-        let surroundings = Surroundings { settings, info: grid.info(), field: field.as_ref(), blacklist, robot, now_s };
+        let surroundings =
+            Surroundings { settings, info: grid.info(), needs, field: field.as_ref(), blacklist, robot, now_s };
         let standing = &mut self.standing;
         let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
         let eligible = rank(&mut assessed, &mut *self.selector, robot);
@@ -159,21 +166,33 @@ impl Lookout {
         Ok(Decided { record, choice, here, left_behind })
     }
 
-    /// Asks the planner in order of rank; what has no path says so in its record.
+    /// Asks the planner in order of rank; what has no path says so in its record. When
+    /// none has, and the planner gave up on some before it knew, part of the way to the
+    /// first of these is taken.
     fn first_with_a_way(&mut self, ranked: &mut [Assessed], costmap: &Costmap, robot: &Pose) -> Option<Choice> {
-        for assessed in ranked {
+        let mut given_up = Vec::new();
+        for (index, assessed) in ranked.iter_mut().enumerate() {
             let Some(goal) = assessed.candidate.as_ref().map(|c| c.goal) else { continue };
             match self.planner.plan(costmap, robot, &goal) {
                 Ok(path) => {
-                    assessed.record.path_m = Some(path.length_m());
+                    let choice = assessed.choose(goal, &path, false);
                     self.path = Some(path);
-                    assessed.record.status = CandidateStatus::Chosen;
-                    return Some(Choice { goal, target: assessed.target });
+                    return Some(choice);
                 }
-                Err(_) => assessed.record.status = CandidateStatus::NoPath,
+                Err(error) => {
+                    assessed.record.status = CandidateStatus::NoPath;
+                    if matches!(error, PlanError::IterationLimit { .. }) {
+                        given_up.push((index, goal));
+                    }
+                }
             }
         }
-        None
+        given_up.into_iter().find_map(|(index, goal)| {
+            let (place, path) = stage(&mut *self.planner, &mut self.guide, costmap, robot, &goal)?;
+            let choice = ranked.get_mut(index)?.choose(place, &path, true);
+            self.path = Some(path);
+            Some(choice)
+        })
     }
 
     /// The costmap that came with the map, or our own, made once for each map.
@@ -189,6 +208,15 @@ impl Lookout {
                 costmap
             }
         }
+    }
+}
+
+impl Assessed {
+    /// Makes it the choice of its decision.
+    fn choose(&mut self, goal: Pose, path: &Path, is_stage: bool) -> Choice {
+        self.record.path_m = Some(path.length_m());
+        self.record.status = CandidateStatus::Chosen;
+        Choice { goal, target: self.target, is_stage }
     }
 }
 
@@ -226,8 +254,9 @@ fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left:
     match choice {
         Some(choice) => {
             let passed_over = if skipped > 0 { format!(", {skipped} before it had no path") } else { String::new() };
+            let part = if choice.is_stage { ": the planner gave up, part of the way" } else { "" };
             format!(
-                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}",
+                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}{part}",
                 left.frontiers, choice.target.x, choice.target.y
             )
         }

@@ -8,6 +8,7 @@ mod progress;
 mod record;
 mod run;
 mod settings;
+mod stages;
 mod standing;
 mod state;
 

@@ -1,7 +1,7 @@
 //! Where to stand for a frontier.
 
 use crate::geometry::{Point, Pose};
-use crate::grid::{Cell, LETHAL_COST, Neighbourhood};
+use crate::grid::{Cell, LETHAL_COST, NEIGHBOURS_8};
 use crate::planning::PathField;
 use serde::{Deserialize, Serialize};
 
@@ -19,11 +19,17 @@ pub enum GoalHeading {
 /// Looks for places to stand; kept for its memory, as a decision asks for hundreds.
 #[derive(Clone, Debug, Default)]
 pub struct StandingSearch {
-    /// In which search each cell around the target was seen last.
-    seen: Vec<u32>,
+    /// The square around the target, with a margin, that the memory is made for.
+    side: usize,
+    /// In which search each cell of the square was met last; those beyond the radius
+    /// count as met in all.
+    met: Vec<u32>,
     search: u32,
-    queue: Vec<Cell>,
+    queue: Vec<(Cell, usize)>,
 }
+
+/// Met in every search.
+const ALWAYS: u32 = u32::MAX;
 
 impl StandingSearch {
     /// The place nearest to `target` where the robot can stand and to which it can get,
@@ -50,37 +56,51 @@ impl StandingSearch {
         let costmap = field.costmap();
         let info = costmap.info();
         let reach = info.cells(radius_m).ceil().min(MAX_REACH_CELLS) as i32;
-        let side = 2 * reach + 1;
-        let slots = (side * side) as usize;
-        if self.seen.len() != slots || self.search == u32::MAX {
-            self.seen.clear();
-            self.seen.resize(slots, 0);
-            self.search = 0;
+        if !field.reaches_near(center, reach.unsigned_abs()) {
+            return None;
         }
-        self.search += 1;
-        let slot = |cell: Cell| ((cell.y - center.y + reach) * side + cell.x - center.x + reach) as usize;
-        let limit = i64::from(reach).pow(2);
-        self.queue.clear();
-        self.queue.push(center);
-        self.seen[slot(center)] = self.search;
+        self.begin(reach);
+        let side = self.side as isize;
+        let middle = self.met.len() / 2;
+        self.queue.push((center, middle));
+        self.met[middle] = self.search;
         let mut next = 0;
-        while let Some(&cell) = self.queue.get(next) {
+        while let Some(&(cell, slot)) = self.queue.get(next) {
             next += 1;
             if field.reaches(cell) {
                 return Some(cell);
             }
-            for neighbour in info.neighbours(cell, Neighbourhood::Eight) {
-                if neighbour.distance_squared(center) > limit || costmap.cost(neighbour) == LETHAL_COST {
+            for (dx, dy) in NEIGHBOURS_8 {
+                let beside = slot.wrapping_add_signed(dy as isize * side + dx as isize);
+                let met = &mut self.met[beside];
+                if *met == self.search || *met == ALWAYS {
                     continue;
                 }
-                let seen = &mut self.seen[slot(neighbour)];
-                if *seen != self.search {
-                    *seen = self.search;
-                    self.queue.push(neighbour);
+                *met = self.search;
+                let neighbour = cell.offset((dx, dy));
+                if info.contains(neighbour) && costmap.cost(neighbour) != LETHAL_COST {
+                    self.queue.push((neighbour, beside));
                 }
             }
         }
         None
+    }
+
+    /// Makes ready for a search that goes this many cells far.
+    fn begin(&mut self, reach: i32) {
+        self.queue.clear();
+        self.search += 1;
+        let side = (2 * reach + 3) as usize;
+        if self.side == side && self.search < ALWAYS {
+            return;
+        }
+        let around = -reach - 1..=reach + 1;
+        let cells = around.clone().flat_map(|y| around.clone().map(move |x| Cell::new(x, y)));
+        let limit = i64::from(reach).pow(2);
+        let is_beyond = |cell: Cell| cell.distance_squared(Cell::new(0, 0)) > limit;
+        self.met = cells.map(|cell| if is_beyond(cell) { ALWAYS } else { 0 }).collect();
+        self.side = side;
+        self.search = 1;
     }
 }
 

@@ -49,6 +49,8 @@ pub struct Drive {
     pub goal: Pose,
     /// The frontier's representative point.
     pub target: Point,
+    /// Whether the goal is only a place on the way there.
+    pub is_stage: bool,
     /// Since when, seconds.
     pub since_s: f64,
     /// Whether it gets anywhere.

@@ -23,9 +23,10 @@
 
 mod edges;
 
-use super::plane::{BEYOND, OPEN, Plane, UNKNOWN, group, set_cells};
+use super::bits::{Territory, cells, with_neighbours};
+use super::plane::group;
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
-use crate::grid::{Cell, Costmap, INSCRIBED_COST, LETHAL_COST, Neighbourhood, UNKNOWN_COST};
+use crate::grid::{BitPlane, Cell, INSCRIBED_COST, LETHAL_COST, Neighbourhood, Thresholds, UNKNOWN_COST};
 use crate::range::OutOfRange;
 use edges::Blurred;
 use serde::{Deserialize, Serialize};
@@ -99,15 +100,15 @@ impl FrontierDetector for Canny {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        let plane = Plane::of(input, &self.params)?;
-        let info = *plane.info();
+        let info = input.grid.info();
         let params = &self.params.canny;
-        let picture = draw(&plane, input.costmap, params.blocked_cost_min);
-        let cells = between(&plane, &picture, self.params.neighbours);
+        let territory = Territory::of(input, &self.params)?;
+        let picture = draw(input, &self.params.thresholds, params.blocked_cost_min);
+        let cells = between(&territory, &picture, self.params.neighbours);
         let (low, high) = (f64::from(params.low_threshold), f64::from(params.high_threshold));
-        let cells = Blurred::new(&info, &picture, &cells).edges(&cells, low, high);
-        let mut frontiers = group(&info, &cells, self.params.neighbours);
-        let min_cells = self.params.min_cells(&info);
+        let cells = Blurred::new(info, &picture, &cells).edges(&cells, low, high);
+        let mut frontiers = group(info, &cells, self.params.neighbours);
+        let min_cells = self.params.min_cells(info);
         frontiers.retain(|cells| cells.len() >= min_cells);
         Ok(number(frontiers, CellSide::Either))
     }
@@ -115,60 +116,41 @@ impl FrontierDetector for Canny {
 
 /// The picture, row 0 of the grid first: edges do not mind. What the costmap does not
 /// know blocks nothing, and neither does what lies outside it.
-fn draw(plane: &Plane, costmap: Option<&Costmap>, blocked_cost_min: u8) -> Vec<u8> {
-    let info = plane.info();
-    let is_blocked = |cost: u8| (blocked_cost_min..UNKNOWN_COST).contains(&cost);
-    let grey = |(&state, &cost): (&u8, &u8)| match state {
-        OPEN | BEYOND | UNKNOWN if is_blocked(cost) => BLACK,
-        OPEN | BEYOND => WHITE,
-        UNKNOWN => GREY,
-        _ => BLACK,
+fn draw(input: &DetectionInput<'_>, thresholds: &Thresholds, blocked_cost_min: u8) -> Vec<u8> {
+    let info = input.grid.info();
+    let Thresholds { free_max, occupied_min } = *thresholds;
+    let is_blocked = |cost: u8| (cost >= blocked_cost_min) & (cost != UNKNOWN_COST);
+    let grey = |(&value, &cost): (&i8, &u8)| {
+        let is_free = (value >= 0) & (value <= free_max);
+        let shade = if is_free { WHITE } else { GREY };
+        if (value >= occupied_min) | is_blocked(cost) { BLACK } else { shade }
     };
-    let costs: Cow<'_, [u8]> = match costmap {
+    let costs: Cow<'_, [u8]> = match input.costmap {
         Some(costmap) if costmap.info() == info => costmap.costs().into(),
         Some(costmap) => (0..info.len()).map(|index| costmap.cost_at(info.center(info.cell(index)))).collect(),
         None => vec![UNKNOWN_COST; info.len()].into(),
     };
-    plane.states().iter().zip(&*costs).map(grey).collect()
+    input.grid.data().iter().zip(&*costs).map(grey).collect()
 }
 
 /// The cells that have both an open and an unknown cell among them and their
 /// neighbours, row-major.
-fn between(plane: &Plane, picture: &[u8], neighbours: Neighbourhood) -> Vec<Cell> {
-    let info = plane.info();
+fn between(territory: &Territory, picture: &[u8], neighbours: Neighbourhood) -> Vec<Cell> {
+    let width = territory.open.width();
     // White is drawn also where the robot cannot get to.
-    let states = plane.states();
-    let open: Vec<bool> = states.iter().zip(picture).map(|(&state, &grey)| (state == OPEN) & (grey == WHITE)).collect();
-    let unknown: Vec<bool> = picture.iter().map(|&grey| grey == GREY).collect();
-    let beside_open = with_neighbours(&open, info.width(), neighbours);
-    let beside_unknown = with_neighbours(&unknown, info.width(), neighbours);
-    let both: Vec<bool> = beside_open.iter().zip(&beside_unknown).map(|(&open, &unknown)| open & unknown).collect();
-    set_cells(info, &both)
-}
-
-/// A mask with rows of `width`, together with the neighbours of its cells.
-fn with_neighbours(mask: &[bool], width: usize, neighbours: Neighbourhood) -> Vec<bool> {
-    let mut out = mask.to_vec();
-    for &(dx, dy) in neighbours.offsets() {
-        // Whole rows at a time: `to` gets what `from` has at the offset.
-        let (to_row, from_row) = if dy > 0 { (0, 1) } else { (usize::from(dy < 0), 0) };
-        let (to, from) = if dx > 0 { (0, 1) } else { (usize::from(dx < 0), 0) };
-        let rows = out.chunks_exact_mut(width).skip(to_row).zip(mask.chunks_exact(width).skip(from_row));
-        for (out, row) in rows {
-            let (out, row) = (out.get_mut(to..).unwrap_or_default(), row.get(from..).unwrap_or_default());
-            for (out, &set) in out.iter_mut().zip(row) {
-                *out |= set;
-            }
-        }
-    }
-    out
+    let mut open = BitPlane::of_values(width, picture, |grey| grey == WHITE);
+    open.intersect(&territory.open);
+    let unknown = BitPlane::of_values(width, picture, |grey| grey == GREY);
+    let mut between = with_neighbours(&open, neighbours);
+    between.intersect(&with_neighbours(&unknown, neighbours));
+    cells(&between)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::Pose;
-    use crate::grid::{GridInfo, Inflation, OccupancyGrid, Thresholds};
+    use crate::grid::{Costmap, GridInfo, Inflation, OccupancyGrid};
 
     /// A room of 20 x 20 cells of 0.1 m with an open right side, in the unknown.
     fn room() -> OccupancyGrid {
@@ -217,16 +199,6 @@ mod tests {
         let elsewhere = GridInfo::new(4, 4, 0.05, Pose::new(50.0, 50.0, 0.3)).unwrap();
         let costmap = Costmap::from_costs(elsewhere, vec![LETHAL_COST; 16]).unwrap();
         assert_eq!(detect(&grid, Some(&costmap)), detect(&grid, None));
-    }
-
-    #[test]
-    fn neighbours_of_a_mask_stay_in_their_rows() {
-        let mask = [[false, false, true], [false; 3], [true, false, false]].concat();
-        let drawn = |neighbours| -> String {
-            with_neighbours(&mask, 3, neighbours).iter().map(|&set| if set { '#' } else { '.' }).collect()
-        };
-        assert_eq!(drawn(Neighbourhood::Four), ".## #.# ##.".replace(' ', ""));
-        assert_eq!(drawn(Neighbourhood::Eight), ".## ### ##.".replace(' ', ""));
     }
 
     #[test]

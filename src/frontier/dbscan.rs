@@ -16,7 +16,7 @@
 //! Cells are looked up on the grid: O(cells of the grid + frontier cells * eps^2).
 //! A short frontier, fewer than `min_samples` cells, is noise: narrow gaps stay unseen.
 
-use super::plane::Plane;
+use super::bits::{Territory, cells};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
 use crate::grid::{Cell, GridInfo};
 use crate::range::OutOfRange;
@@ -78,49 +78,56 @@ impl FrontierDetector for Dbscan {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        let plane = Plane::of(input, &self.params)?;
-        let cells = plane.open_beside_unknown(self.params.neighbours);
-        let mut clusters = cluster(plane.info(), &cells, &self.params.dbscan);
-        let min_cells = self.params.min_cells(plane.info());
+        let info = input.grid.info();
+        let territory = Territory::of(input, &self.params)?;
+        let cells = cells(&territory.open_beside_unknown(self.params.neighbours));
+        let mut clusters = cluster(info, &cells, &self.params.dbscan);
+        let min_cells = self.params.min_cells(info);
         clusters.retain(|cluster| cluster.len() >= min_cells);
         Ok(number(clusters, CellSide::Free))
     }
 }
 
-/// The clusters of distinct cells in row-major order, in the order of scikit-learn.
+/// The clusters of distinct cells of the grid in row-major order, in the order of scikit-learn.
 fn cluster(info: &GridInfo, cells: &[Cell], params: &DbscanParams) -> Vec<Vec<Cell>> {
     const NONE: u32 = 0;
-    let disc = disc(params.eps_cells);
-    // Which of the cells stands where on the grid, counted from 1.
-    let mut numbers = vec![NONE; info.len()];
-    for (&cell, number) in cells.iter().zip(1..) {
-        if let Some(index) = info.index(cell) {
-            numbers[index] = number;
-        }
+    // Which of the cells stands where on the grid, counted from 1, with a margin so wide
+    // that no neighbour of a cell lies outside.
+    let margin = params.eps_cells.floor() as usize;
+    let stride = info.width() + 2 * margin;
+    let mut numbers = vec![NONE; stride * (info.height() + 2 * margin)];
+    let place = |cell: &Cell| (cell.y as usize + margin) * stride + cell.x as usize + margin;
+    let places: Vec<usize> = cells.iter().map(place).collect();
+    for (&place, number) in places.iter().zip(1..) {
+        numbers[place] = number;
     }
-    let near = |of: usize| {
-        let of = cells.get(of).copied();
-        disc.iter().filter_map(move |&offset| of.and_then(|cell| info.index(cell.offset(offset)))).filter_map(|index| {
-            let number = numbers[index];
-            (number != NONE).then(|| number as usize - 1)
-        })
+    let offsets: Vec<isize> =
+        disc(params.eps_cells).iter().map(|&(dx, dy)| dy as isize * stride as isize + dx as isize).collect();
+    let is_core = |place: usize| {
+        let near = offsets.iter().filter(|&&offset| numbers[place.wrapping_add_signed(offset)] != NONE);
+        near.count() >= params.min_samples as usize
     };
-    let is_core: Vec<bool> = (0..cells.len()).map(|i| near(i).count() >= params.min_samples as usize).collect();
-    let mut taken = vec![false; cells.len()];
+    let is_core: Vec<bool> = places.iter().map(|&place| is_core(place)).collect();
     let mut clusters = Vec::new();
-    for first in 0..cells.len() {
-        if taken[first] || !is_core[first] {
+    for (first, &place) in places.iter().enumerate() {
+        // The number of a cell is taken away when a cluster takes the cell.
+        if !is_core[first] || std::mem::take(&mut numbers[place]) == NONE {
             continue;
         }
-        taken[first] = true;
         let mut members = vec![first];
         let mut next = 0;
         while let Some(&member) = members.get(next) {
-            // Border cells belong to the cluster and do not carry it on.
-            if is_core[member] {
-                members.extend(near(member).filter(|&other| !std::mem::replace(&mut taken[other], true)));
-            }
             next += 1;
+            // Border cells belong to the cluster and do not carry it on.
+            if !is_core[member] {
+                continue;
+            }
+            for &offset in &offsets {
+                let number = std::mem::take(&mut numbers[places[member].wrapping_add_signed(offset)]);
+                if number != NONE {
+                    members.push(number as usize - 1);
+                }
+            }
         }
         clusters.push(members.into_iter().filter_map(|i| cells.get(i)).copied().collect());
     }

@@ -5,7 +5,8 @@
 //! of the map (M_e); a cell of M_e is a frontier point when a step between free and
 //! unknown lies between it and its left or lower neighbour; the frontier points are
 //! dilated with B, and each connected component of the result is a frontier with the
-//! minimum enclosing circle of its cells. O(cells of the grid) whatever the size of B.
+//! minimum enclosing circle of its cells. O(cells of the grid), on planes of bits, and for
+//! each cell of half of B a small part of that.
 //!
 //! | parameter | unit | paper |
 //! |---|---|---|
@@ -19,10 +20,11 @@
 //! [`Reachability::WallsBlock`](super::Reachability) only steps at free cells
 //! connected to the robot's count; obstacles are not widened for that connection.
 
-use super::plane::{OCCUPIED, OPEN, Plane, UNKNOWN, group, set_cells};
+use super::bits::{Territory, components, with_neighbours};
+use super::runs::Run;
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, order};
 use crate::geometry::{Circle, Point};
-use crate::grid::{Cell, GridInfo};
+use crate::grid::{BitPlane, Cell, GridInfo, Neighbourhood};
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
@@ -79,81 +81,71 @@ impl FrontierDetector for ImageDetector {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        let plane = Plane::of(input, &self.params)?;
-        let info = *plane.info();
-        let half = self.params.image.half_cells(&info);
+        let info = input.grid.info();
+        let territory = Territory::of(input, &self.params)?;
+        let half = self.params.image.half_cells(info);
         // Eroding S is dilating its complement, the obstacles.
-        let mut obstacles: Vec<bool> = plane.states().iter().map(|&state| state == OCCUPIED).collect();
-        dilate(&mut obstacles, info.width(), half);
-        let is_point = frontier_points(&plane, &obstacles);
-        let mut dilated = is_point.clone();
-        dilate(&mut dilated, info.width(), half);
-        let cells = set_cells(&info, &dilated);
-        let min_cells = self.params.min_cells(&info);
-        let frontiers = group(&info, &cells, self.params.neighbours).into_iter().map(|component| {
-            let circle = enclosing_circle(&info, &component);
-            let is_point = |cell: &Cell| info.index(*cell).is_some_and(|index| is_point[index]);
-            let cells: Vec<Cell> = component.into_iter().filter(is_point).collect();
-            Frontier { id: 0, cells, side: CellSide::Either, circle }
+        let obstacles = dilated(territory.planes.occupied(), half);
+        let mut open = territory.open;
+        let mut unknown = territory.planes.unknown().clone();
+        open.subtract(&obstacles);
+        unknown.subtract(&obstacles);
+        let points = frontier_points(&open, &unknown);
+        let min_cells = self.params.min_cells(info);
+        let frontiers = components(&dilated(&points, half), self.params.neighbours).into_iter().map(|component| {
+            let circle = circle_of_runs(info, &component);
+            Frontier { id: 0, cells: set_cells(&points, &component), side: CellSide::Either, circle }
         });
         Ok(order(frontiers.filter(|f| f.cells.len() >= min_cells).collect()))
     }
 }
 
-/// Eq. 5: whether there is a step between open and unknown to the left of or below each
-/// cell, row-major.
-fn frontier_points(plane: &Plane, obstacles: &[bool]) -> Vec<bool> {
-    let width = plane.info().width();
-    let widened = |(&state, &blocked): (&u8, &bool)| if blocked { OCCUPIED } else { state };
-    let m_e: Vec<u8> = plane.states().iter().zip(obstacles).map(widened).collect();
-    let is_step = |a: u8, b: u8| ((a == OPEN) & (b == UNKNOWN)) | ((a == UNKNOWN) & (b == OPEN));
-    let mut points = vec![false; m_e.len()];
-    for (points, row) in points.chunks_exact_mut(width).zip(m_e.chunks_exact(width)) {
-        let right = row.get(1..).unwrap_or_default();
-        for ((point, &left), &here) in points.get_mut(1..).unwrap_or_default().iter_mut().zip(row).zip(right) {
-            *point = is_step(left, here);
+/// Eq. 5: the cells with a step between open and unknown to the left of or below them.
+fn frontier_points(open: &BitPlane, unknown: &BitPlane) -> BitPlane {
+    let mut points = BitPlane::new(open.width(), open.height());
+    for y in 0..points.height() {
+        let (open_row, unknown_row) = (open.row(y), unknown.row(y));
+        let (mut open_left, mut unknown_left) = (0, 0);
+        for ((point, &open), &unknown) in points.row_mut(y).iter_mut().zip(open_row).zip(unknown_row) {
+            *point = open & (unknown << 1 | unknown_left >> 63) | unknown & (open << 1 | open_left >> 63);
+            (open_left, unknown_left) = (open, unknown);
         }
-    }
-    let above = points.get_mut(width..).unwrap_or_default().iter_mut();
-    for ((point, &here), &below) in above.zip(m_e.get(width..).unwrap_or_default()).zip(&m_e) {
-        *point |= is_step(below, here);
+        let Some(below) = y.checked_sub(1) else { continue };
+        let below = open.row(below).iter().zip(unknown.row(below));
+        let here = points.row_mut(y).iter_mut().zip(open_row.iter().zip(unknown_row));
+        for ((point, (open, unknown)), (open_below, unknown_below)) in here.zip(below) {
+            *point |= open & unknown_below | unknown & open_below;
+        }
     }
     points
 }
 
-/// Dilates a mask with rows of `width` with a square that reaches `half` cells to each
-/// side, along the rows and then along the columns.
-fn dilate(mask: &mut [bool], width: usize, half: u8) {
-    let reach = usize::from(half);
-    let mut row_before = vec![false; width];
-    for row in mask.chunks_exact_mut(width) {
-        row_before.copy_from_slice(row);
-        let mut done = 0;
-        for (x, _) in row_before.iter().enumerate().filter(|(_, set)| **set) {
-            let end = (x + reach + 1).min(width);
-            row[x.saturating_sub(reach).max(done)..end].fill(true);
-            done = end;
-        }
-    }
-    // For how many more rows each column stays set, upwards and then downwards; what
-    // was set on the way up is no source on the way down.
-    let mut down = mask.to_vec();
-    spread(mask.chunks_exact_mut(width), width, half);
-    spread(down.chunks_exact_mut(width).rev(), width, half);
-    for (cell, &from_above) in mask.iter_mut().zip(&down) {
-        *cell |= from_above;
-    }
+/// A plane dilated with a square that reaches `half` cells to each side.
+fn dilated(plane: &BitPlane, half: u8) -> BitPlane {
+    let grown = |plane: BitPlane, _| with_neighbours(&plane, Neighbourhood::Eight);
+    (0..half).fold(plane.clone(), grown)
 }
 
-/// Sets each cell that comes at most `half` rows after a set one.
-fn spread<'a>(rows: impl Iterator<Item = &'a mut [bool]>, width: usize, half: u8) {
-    let mut left = vec![0u8; width];
-    for row in rows {
-        for (cell, left) in row.iter_mut().zip(&mut left) {
-            *left = if *cell { half + 1 } else { left.saturating_sub(1) };
-            *cell = *left > 0;
+/// The set cells among those of runs, row-major.
+fn set_cells(plane: &BitPlane, runs: &[(usize, Run)]) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for &(y, run) in runs {
+        let mut from = run.start as usize;
+        while let Some(x) = plane.first_in(y, from..run.end as usize) {
+            cells.push(Cell::new(x as i32, y as i32));
+            from = x + 1;
         }
     }
+    cells
+}
+
+/// The minimum enclosing circle of the centres of a component's cells, in the map frame.
+fn circle_of_runs(info: &GridInfo, runs: &[(usize, Run)]) -> Option<Circle> {
+    // Only the ends of each row can be on the rim.
+    let rows = runs.chunk_by(|a, b| a.0 == b.0).filter_map(|row| row.first().zip(row.last()));
+    let ends = rows.flat_map(|(&(y, first), &(_, last))| [first.start, last.end - 1].map(|x| (x, y)));
+    let points: Vec<Point> = ends.map(|(x, y)| info.center(Cell::new(x as i32, y as i32))).collect();
+    Circle::enclosing(&points)
 }
 
 /// The minimum enclosing circle of the cells' centres, in the map frame.

@@ -1,6 +1,7 @@
 //! Frontiers and the detectors that find them (floor 1): one file for each detector.
 
 mod bitplane;
+mod bits;
 mod canny;
 mod dbscan;
 mod fast;

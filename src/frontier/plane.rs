@@ -56,24 +56,9 @@ impl Plane {
         Self { info, stride, states }
     }
 
-    /// Where the cells lie.
-    pub(super) const fn info(&self) -> &GridInfo {
-        &self.info
-    }
-
     /// The state of a cell; the margin and all beyond it are no state of the above.
     pub(super) fn state(&self, cell: Cell) -> u8 {
         self.info.index(cell).map_or(OUTSIDE, |_| self.states[self.position(cell)])
-    }
-
-    /// The states of all cells, row-major and without the margin.
-    pub(super) fn states(&self) -> Vec<u8> {
-        let width = self.info.width();
-        let mut states = Vec::with_capacity(self.info.len());
-        for row in self.states.chunks_exact(self.stride).skip(1).take(self.info.height()) {
-            states.extend_from_slice(&row[1..=width]);
-        }
-        states
     }
 
     /// The open cells beside an unknown one, row-major: the frontier cells of Yamauchi.

@@ -11,8 +11,9 @@
 //! [`Reachability::WallsBlock`](super::Reachability) only the open cells connected to
 //! the robot's count; a region on two sides of a diagonal wall loses its far part.
 
-use super::plane::{Plane, group};
+use super::bits::{Territory, cells_of, components};
 use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
+use crate::grid::Cell;
 
 /// The detector.
 #[derive(Clone, Debug)]
@@ -34,10 +35,11 @@ impl FrontierDetector for Yamauchi {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        let plane = Plane::of(input, &self.params)?;
-        let cells = plane.open_beside_unknown(self.params.neighbours);
-        let mut regions = group(plane.info(), &cells, self.params.neighbours);
-        let min_cells = self.params.min_cells(plane.info());
+        let territory = Territory::of(input, &self.params)?;
+        let frontier = territory.open_beside_unknown(self.params.neighbours);
+        let mut regions: Vec<Vec<Cell>> =
+            components(&frontier, self.params.neighbours).iter().map(|runs| cells_of(runs)).collect();
+        let min_cells = self.params.min_cells(input.grid.info());
         regions.retain(|region| region.len() >= min_cells);
         Ok(number(regions, CellSide::Free))
     }

@@ -1,6 +1,6 @@
 //! Costs of standing in a cell: costmap_2d's static and inflation layers.
 
-use super::{Cell, CellState, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells_within};
+use super::{Cell, GridInfo, OccupancyGrid, Thresholds, near, squared_distance_cells};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -72,25 +72,24 @@ impl Costmap {
     #[must_use]
     pub fn inflate(grid: &OccupancyGrid, thresholds: &Thresholds, inflation: &Inflation) -> Self {
         let info = *grid.info();
-        // Maps are inflated every second: a cell is classified by looking it up.
-        let mut states = [CellState::Unknown; 256];
-        for value in i8::MIN..=i8::MAX {
-            states[usize::from(value as u8)] = thresholds.classify(value);
-        }
-        let state = |value: i8| states[usize::from(value as u8)];
-        let data = grid.data();
-        let reach_cells = inflation.reach_cells(info.resolution_m());
-        let squared = squared_distance_cells_within(&info, reach_cells, |i| state(data[i]) == CellState::Occupied);
         let table = inflation.table(info.resolution_m());
-        let costs = data
-            .iter()
-            .zip(&squared)
-            .map(|(&value, &squared)| {
-                let inflated = table.get(squared as usize).copied().unwrap_or(FREE_COST);
-                let is_unknown = state(value) == CellState::Unknown && inflated < INSCRIBED_COST;
-                if is_unknown { UNKNOWN_COST } else { inflated }
-            })
-            .collect();
+        let is_obstacle = |value: i8| value >= thresholds.occupied_min;
+        if inflation.reach_cells(info.resolution_m()) as usize > near::LONGEST_LIMIT {
+            let squared = squared_distance_cells(&info, |index| is_obstacle(grid.data()[index]));
+            let inflated = squared.iter().map(|&squared| table.get(squared as usize).copied().unwrap_or(FREE_COST));
+            let mut costs: Vec<u8> = inflated.collect();
+            leave_unknown(&mut costs, grid.data(), *thresholds);
+            return Self { info, costs };
+        }
+        let mut obstacles: Vec<u8> =
+            grid.data().iter().map(|&value| if is_obstacle(value) { 0 } else { u8::MAX }).collect();
+        let mut rows = grid.data().chunks_exact(info.width());
+        let mut costs = Vec::with_capacity(info.len());
+        near::for_each_row(info.width(), &mut obstacles, &table, |inflated| {
+            let from = costs.len();
+            costs.extend_from_slice(inflated);
+            leave_unknown(&mut costs[from..], rows.next().unwrap_or_default(), *thresholds);
+        });
         Self { info, costs }
     }
 
@@ -138,6 +137,16 @@ impl Costmap {
     }
 }
 
+/// Marks the unknown among cells that are no collision. Maps are inflated every second:
+/// this is arithmetic on many cells at a time.
+fn leave_unknown(costs: &mut [u8], values: &[i8], thresholds: Thresholds) {
+    let Thresholds { free_max, occupied_min } = thresholds;
+    for (cost, &value) in costs.iter_mut().zip(values) {
+        let is_unknown = (value < occupied_min) & ((value < 0) | (value > free_max));
+        *cost = if is_unknown & (*cost < INSCRIBED_COST) { UNKNOWN_COST } else { *cost };
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -151,6 +160,15 @@ mod tests {
         let costmap = Costmap::inflate(&grid, &Thresholds::default(), &INFLATION);
         // 252 e^-1 = 92.7, 252 e^-2 = 34.1; beyond the inflation radius nothing.
         assert_eq!(costmap.costs(), &[254, 253, 92, 34, 0, 0, 0]);
+    }
+
+    #[test]
+    fn costs_that_reach_far_are_the_same() {
+        let grid = OccupancyGrid::from_ascii("#......?").unwrap();
+        let far = Inflation { inflation_radius_m: 60.0, ..INFLATION };
+        let costmap = Costmap::inflate(&grid, &Thresholds::default(), &far);
+        // 252 e^-3 = 12.5, 252 e^-4 = 4.6, 252 e^-5 = 1.7
+        assert_eq!(costmap.costs(), &[254, 253, 92, 34, 12, 4, 1, 255]);
     }
 
     #[test]

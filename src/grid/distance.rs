@@ -11,80 +11,16 @@ use super::GridInfo;
 /// Row-major, as the grid.
 #[must_use]
 pub fn squared_distance_cells(info: &GridInfo, is_obstacle: impl Fn(usize) -> bool) -> Vec<u32> {
-    squared_distance_cells_within(info, NONE, is_obstacle)
-}
-
-/// The same as far as it matters: exact up to `limit_cells`, and beyond that any
-/// number greater than its square. Short limits, as inflation has them, are computed
-/// by sliding each row over itself, which the compiler turns into vector code.
-#[must_use]
-pub fn squared_distance_cells_within(
-    info: &GridInfo,
-    limit_cells: u32,
-    is_obstacle: impl Fn(usize) -> bool,
-) -> Vec<u32> {
     let (width, height) = (info.width(), info.height());
     let mut distances = vertical_distances(width, height, is_obstacle);
-    if limit_cells <= SHORT_LIMIT {
-        let mut sliding = Sliding::new(width, limit_cells as i16);
-        for row in distances.chunks_exact_mut(width) {
-            sliding.replace(row);
-        }
-        return distances;
-    }
     let mut envelope = Envelope::with_capacity(width);
     let mut row_squared = vec![0; width];
     for row in distances.chunks_exact_mut(width) {
-        envelope.build(row, limit_cells);
+        envelope.build(row);
         envelope.evaluate(row, &mut row_squared);
         row.copy_from_slice(&row_squared);
     }
     distances
-}
-
-/// The longest limit for which sliding is faster than envelopes, cells.
-const SHORT_LIMIT: u32 = 48;
-
-/// The least of `height(x + dx)^2 + dx^2` over all shifts up to a limit, by comparing a
-/// row with itself shifted.
-struct Sliding {
-    limit: i16,
-    /// More than any distance within the limit: stands for all that is farther.
-    far: i16,
-    /// Squared vertical distances, with `limit` far ones before and after.
-    squares: Vec<i16>,
-    least: Vec<i16>,
-}
-
-impl Sliding {
-    fn new(width: usize, limit: i16) -> Self {
-        let far = limit * limit + 1;
-        Self { limit, far, squares: vec![far; width + 2 * limit as usize], least: vec![far; width] }
-    }
-
-    /// Replaces vertical distances by squared ones.
-    fn replace(&mut self, row: &mut [u32]) {
-        let (width, limit, far) = (row.len(), self.limit as usize, self.far);
-        let limit_u32 = u32::from(self.limit.unsigned_abs());
-        if row.iter().all(|&height| height > limit_u32) {
-            row.fill(NONE);
-            return;
-        }
-        for (square, &height) in self.squares[limit..limit + width].iter_mut().zip(row.iter()) {
-            *square = if height > limit_u32 { far } else { (height * height) as i16 };
-        }
-        self.least.copy_from_slice(&self.squares[limit..limit + width]);
-        for dx in 1..=limit {
-            let add = (dx * dx) as i16;
-            let (left, right) = (&self.squares[limit - dx..], &self.squares[limit + dx..]);
-            for ((least, &left), &right) in self.least.iter_mut().zip(left).zip(right) {
-                *least = (*least).min(left.min(right) + add);
-            }
-        }
-        for (out, &least) in row.iter_mut().zip(&self.least) {
-            *out = if least >= far { NONE } else { u32::from(least.unsigned_abs()) };
-        }
-    }
 }
 
 /// Cells to the nearest obstacle in the same column, `NONE` where there is none.
@@ -122,12 +58,11 @@ impl Envelope {
         Self { sites: Vec::with_capacity(width), starts: Vec::with_capacity(width) }
     }
 
-    /// Of the sites whose height is at most `limit`: the others cannot come nearer.
-    fn build(&mut self, heights: &[u32], limit: u32) {
+    fn build(&mut self, heights: &[u32]) {
         self.sites.clear();
         self.starts.clear();
         for (site, &height) in heights.iter().enumerate() {
-            if height == NONE || height > limit {
+            if height == NONE {
                 continue;
             }
             let mut start = 0;
@@ -195,9 +130,6 @@ mod tests {
         ) {
             let info = GridInfo::new(width as u32, height as u32, 1.0, Pose::default()).unwrap();
             let fast = squared_distance_cells(&info, |i| cells[i]);
-            let near = squared_distance_cells_within(&info, 3, |i| cells[i]);
-            let far = squared_distance_cells_within(&info, SHORT_LIMIT + 1, |i| cells[i]);
-            prop_assert_eq!(&far, &fast);
             for (index, &distance) in fast.iter().enumerate() {
                 let here = info.cell(index);
                 let expected = (0..cells.len())
@@ -206,8 +138,6 @@ mod tests {
                     .min()
                     .unwrap_or(u32::MAX);
                 prop_assert_eq!(distance, expected);
-                let within_is_right = if expected <= 9 { near[index] == expected } else { near[index] > 9 };
-                prop_assert!(within_is_right);
             }
         }
     }

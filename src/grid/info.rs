@@ -230,7 +230,7 @@ impl GridInfo {
     #[must_use]
     pub fn cell_at(&self, point_in_map: Point) -> Cell {
         let (x, y) = self.to_grid_units(point_in_map);
-        Cell::new(x.floor() as i32, y.floor() as i32)
+        Cell::new(floor(x), floor(y))
     }
 
     /// Centre of a cell in the map frame, also for cells outside the grid.
@@ -244,6 +244,13 @@ impl GridInfo {
     pub fn cells(&self, length_m: f64) -> f64 {
         length_m / self.resolution_m
     }
+}
+
+/// The largest whole number that is not greater, kept within the range of the type: as
+/// `value.floor() as i32`, without a call into the mathematics library.
+const fn floor(value: f64) -> i32 {
+    let truncated = value as i32;
+    if truncated as f64 > value { truncated.saturating_sub(1) } else { truncated }
 }
 
 #[cfg(test)]
@@ -302,6 +309,14 @@ mod tests {
             let point = grid.from_grid_units(u * f64::from(width), v * f64::from(height));
             let (gx, gy) = grid.to_grid_units(point);
             prop_assert!((gx - u * f64::from(width)).abs() < 1e-6 && (gy - v * f64::from(height)).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn floors_are_those_of_the_library() {
+        let extreme = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3e9, 3e9, f64::from(i32::MIN) - 0.5];
+        for value in (-40..40).map(|i| f64::from(i) * 0.25).chain(extreme) {
+            assert_eq!(floor(value), value.floor() as i32, "{value}");
         }
     }
 }

@@ -8,7 +8,9 @@ mod bitplanes;
 mod costmap;
 mod distance;
 mod info;
+mod near;
 mod occupancy;
+mod pack;
 mod patch;
 mod published;
 mod raytrace;
@@ -16,7 +18,7 @@ mod state;
 
 pub use bitplanes::{BitPlane, BitPlanes, WORD_CELLS};
 pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, UNKNOWN_COST};
-pub use distance::{squared_distance_cells, squared_distance_cells_within};
+pub use distance::squared_distance_cells;
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
 pub use occupancy::{Census, GridError, OccupancyGrid};
 pub use patch::{GridPatch, GridPatchError};

@@ -10,7 +10,7 @@ mod turn;
 use crate::control::{ControlInput, Controller};
 use crate::geometry::{Pose, Twist, shortest_angle};
 use crate::grid::Costmap;
-use crate::planning::{GlobalPlanner, Path};
+use crate::planning::{GlobalPlanner, Path, PlanError};
 use crate::robot::{Command, CommandId, Navigation, NavigationState};
 use crate::scan::LaserScan;
 use serde::{Deserialize, Serialize};
@@ -230,6 +230,10 @@ impl Drive {
                 self.without_path = None;
                 controller.reset();
             }
+            // A path that is still free serves on when the planner gave up its search for
+            // a newer one: the goal may be too far from here for its limit.
+            Err(PlanError::IterationLimit { .. })
+                if self.path.as_ref().is_some_and(|path| !is_blocked(path, input)) => {}
             Err(error) => {
                 self.path = None;
                 let since = self.without_path.take().map_or(input.stamp_s, |(since, _)| since);

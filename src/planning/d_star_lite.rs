@@ -14,11 +14,12 @@
 //! changed where it matters. 16 bytes a cell. Limit: a goal without a path costs a
 //! flood of all that is connected to the goal, once.
 
+use super::change::{changed_cells, growth, moved};
 use super::endpoints::{goal_index, path_along, start_index};
 use super::lattice::{Lattice, Step};
 use super::{GlobalPlanner, Path, PlanError};
-use crate::geometry::{Pose, shortest_angle};
-use crate::grid::{Cell, Costmap, GridInfo, INSCRIBED_COST, Neighbourhood, UNKNOWN_COST};
+use crate::geometry::Pose;
+use crate::grid::{Costmap, GridInfo, Neighbourhood, UNKNOWN_COST};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -285,42 +286,6 @@ impl GlobalPlanner for DStarLite {
         self.problem = Some(problem);
         path
     }
-}
-
-/// Columns and rows by which the old cells moved in a new grid that holds them all;
-/// `None` when it does not.
-fn growth(old: &GridInfo, new: &GridInfo) -> Option<(i32, i32)> {
-    let near = |value: f64| (value - value.round()).abs() < 1e-3;
-    let (dx, dy) = new.to_grid_units(old.origin_in_map().position());
-    let same_cells = (old.resolution_m() / new.resolution_m() - 1.0).abs() < 1e-6
-        && shortest_angle(old.origin_in_map().yaw, new.origin_in_map().yaw).abs() < 1e-6;
-    if !(same_cells && near(dx) && near(dy)) {
-        return None;
-    }
-    let shift = (dx.round() as i32, dy.round() as i32);
-    let last = Cell::new(old.width() as i32 - 1, old.height() as i32 - 1);
-    let holds = |cell: Cell| new.contains(cell.offset(shift));
-    (holds(Cell::new(0, 0)) && holds(last)).then_some(shift)
-}
-
-/// The index in the new grid of a cell of the old one, which the new one holds.
-const fn moved(index: usize, old: &GridInfo, new: &GridInfo, shift: (i32, i32)) -> usize {
-    let cell = old.cell(index).offset(shift);
-    cell.y as usize * new.width() + cell.x as usize
-}
-
-/// Where two rows of costs differ in what they mean for a step.
-fn changed_cells(old: &[u8], new: &[u8]) -> Vec<usize> {
-    const BLOCK: usize = 256;
-    let mut changed = Vec::new();
-    for (block, (old, new)) in old.chunks(BLOCK).zip(new.chunks(BLOCK)).enumerate() {
-        if old != new {
-            let differ = |(a, b): (&u8, &u8)| a != b && (*a < INSCRIBED_COST || *b < INSCRIBED_COST);
-            let cells = old.iter().zip(new).enumerate().filter(|(_, pair)| differ(*pair));
-            changed.extend(cells.map(|(i, _)| block * BLOCK + i));
-        }
-    }
-    changed
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! How far it is from the robot to everywhere at once.
 
 use super::PlanError;
+use super::canonical::CanonicalSearch;
 use super::endpoints::start_index;
-use super::lattice::{Lattice, STRAIGHT};
-use super::search::Search;
+use super::lattice::STRAIGHT;
+use super::reach::connected;
 use crate::geometry::Pose;
-use crate::grid::{Cell, Costmap, INSCRIBED_COST};
+use crate::grid::{BitPlane, Cell, Costmap};
 use std::sync::Arc;
 
 /// Where the robot can get to, and if asked for the cheapest way to every cell of it: one
@@ -13,15 +14,9 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct PathField {
     costmap: Arc<Costmap>,
-    kind: Kind,
-}
-
-#[derive(Clone, Debug)]
-enum Kind {
-    /// Which cells are reached.
-    Reach(Vec<bool>),
-    /// With what it costs to get there.
-    Ways(Search),
+    reach: BitPlane,
+    /// What it costs to get there.
+    ways: Option<CanonicalSearch>,
 }
 
 impl PathField {
@@ -31,19 +26,21 @@ impl PathField {
     /// [`PlanError::StartOutsideMap`] or [`PlanError::StartOccupied`].
     pub fn new(costmap: Arc<Costmap>, robot_in_map: &Pose) -> Result<Self, PlanError> {
         let start = start_index(&costmap, robot_in_map)?;
-        let mut search = Search::default();
-        search.run(&Lattice::new(&costmap), start, None, false);
-        Ok(Self { costmap, kind: Kind::Ways(search) })
+        let mut field = Self::reach_only(costmap, robot_in_map)?;
+        let mut ways = CanonicalSearch::default();
+        ways.run(&field.costmap, start);
+        field.ways = Some(ways);
+        Ok(field)
     }
 
-    /// Finds out which cells can be reached and no more, which is several times faster.
+    /// Finds out which cells can be reached and no more, which is many times faster.
     ///
     /// # Errors
     /// As [`Self::new`].
     pub fn reach_only(costmap: Arc<Costmap>, robot_in_map: &Pose) -> Result<Self, PlanError> {
         let start = start_index(&costmap, robot_in_map)?;
         let reach = connected(&costmap, start);
-        Ok(Self { costmap, kind: Kind::Reach(reach) })
+        Ok(Self { costmap, reach, ways: None })
     }
 
     /// The costmap that was searched.
@@ -55,11 +52,21 @@ impl PathField {
     /// Whether the robot can get to a cell.
     #[must_use]
     pub fn reaches(&self, cell: Cell) -> bool {
-        let index = self.costmap.info().index(cell);
-        index.is_some_and(|index| match &self.kind {
-            Kind::Reach(reach) => reach.get(index).copied().unwrap_or(false),
-            Kind::Ways(search) => search.cost(index).is_some(),
-        })
+        self.reach.contains(cell)
+    }
+
+    /// Whether the robot can get to any cell that is at most `reach_cells` columns and
+    /// rows away from `center`.
+    #[must_use]
+    pub fn reaches_near(&self, center: Cell, reach_cells: u32) -> bool {
+        let within = |center: i32, size: usize| {
+            let clamp = |value: i64| value.clamp(0, size as i64) as usize;
+            let reach = i64::from(reach_cells);
+            clamp(i64::from(center) - reach)..clamp(i64::from(center) + reach + 1)
+        };
+        let columns = within(center.x, self.reach.width());
+        !columns.is_empty()
+            && within(center.y, self.reach.height()).any(|y| self.reach.first_in(y, columns.clone()).is_some())
     }
 
     /// Cost of the cheapest way to a cell, as the number of open cells that cost as
@@ -67,48 +74,9 @@ impl PathField {
     #[must_use]
     pub fn cost_cells(&self, cell: Cell) -> Option<f64> {
         let index = self.costmap.info().index(cell)?;
-        match &self.kind {
-            Kind::Reach(_) => None,
-            Kind::Ways(search) => search.cost(index).map(|cost| f64::from(cost) / f64::from(STRAIGHT)),
-        }
+        let cost = self.ways.as_ref()?.cost(index)?;
+        Some(f64::from(cost) / f64::from(STRAIGHT))
     }
-}
-
-/// The passable cells connected with `start` along their sides. A diagonal step of the
-/// lattice needs both cells beside it, so these are the cells that it reaches.
-fn connected(costmap: &Costmap, start: usize) -> Vec<bool> {
-    let (costs, width) = (costmap.costs(), costmap.info().width());
-    let mut reach = vec![false; costs.len()];
-    let mut open = vec![start];
-    while let Some(seed) = open.pop() {
-        if reach[seed] {
-            continue;
-        }
-        // A whole run of its row at once; above and below, one seed for each run.
-        let row = seed - seed % width;
-        let is_open = |index: usize, reach: &[bool]| costs[index] < INSCRIBED_COST && !reach[index];
-        let mut first = seed;
-        while first > row && is_open(first - 1, &reach) {
-            first -= 1;
-        }
-        let mut last = seed;
-        while last + 1 < row + width && is_open(last + 1, &reach) {
-            last += 1;
-        }
-        reach[first..=last].fill(true);
-        let rows = [first.checked_sub(width), Some(first + width).filter(|&below| below < costs.len())];
-        for beside in rows.into_iter().flatten() {
-            let mut was_open = false;
-            for index in beside..=beside + last - first {
-                let now_open = is_open(index, &reach);
-                if now_open && !was_open {
-                    open.push(index);
-                }
-                was_open = now_open;
-            }
-        }
-    }
-    reach
 }
 
 #[cfg(test)]
@@ -145,8 +113,12 @@ mod tests {
             let ways = PathField::new(Arc::clone(&costmap), &robot).unwrap();
             let reach = PathField::reach_only(costmap, &robot).unwrap();
             for index in 0..info.len() {
-                prop_assert_eq!(ways.reaches(info.cell(index)), reach.reaches(info.cell(index)));
+                let cell = info.cell(index);
+                prop_assert_eq!(ways.cost_cells(cell).is_some(), reach.reaches(cell));
+                let around = |c: Cell| (-2..=2).flat_map(move |dy| (-2..=2).map(move |dx| c.offset((dx, dy))));
+                prop_assert_eq!(reach.reaches_near(cell, 2), around(cell).any(|c| reach.reaches(c)));
             }
+            prop_assert!(!reach.reaches_near(Cell::new(-3, 0), 2) && reach.reaches_near(Cell::new(-2, 0), 2));
         }
     }
 }

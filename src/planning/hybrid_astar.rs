@@ -25,6 +25,7 @@
 use super::endpoints::{goal_index, start_index};
 use super::hybrid_search::{Outcome, Primitive, Task, search};
 use super::lattice::{Lattice, STRAIGHT};
+use super::reach::connected;
 use super::search::Search;
 use super::swept::Swept;
 use super::{GlobalPlanner, Path, PlanError};
@@ -163,8 +164,11 @@ impl GlobalPlanner for HybridAstar {
         let info = costmap.info();
         let start = start_index(costmap, start_in_map)?;
         let goal = goal_index(costmap, goal_in_map)?;
-        let towards_start = self.config.heuristic == HybridHeuristic::Euclidean;
-        if !self.grid_search.run(&Lattice::new(costmap), goal, Some(start), towards_start) {
+        let has_way = match self.config.heuristic {
+            HybridHeuristic::Euclidean => connected(costmap, start).contains(info.cell(goal)),
+            HybridHeuristic::Grid => self.grid_search.run(&Lattice::new(costmap), goal, Some(start), false),
+        };
+        if !has_way {
             return Err(PlanError::no_path(goal_in_map.position()));
         }
         let swept = Swept::new(costmap, &self.body.footprint);

@@ -17,6 +17,9 @@ pub const DIAGONAL: u32 = 17;
 /// Cost of crossing a free cell in navfn's scale.
 const NEUTRAL: u32 = 50;
 
+/// All eight directions as bits, those of [`crate::grid::NEIGHBOURS_8`] from the lowest on.
+pub const ALL_DIRECTIONS: u8 = 0xff;
+
 /// No step costs more than this.
 pub const MAX_STEP: u32 = step_cost(DIAGONAL, 2 * (INSCRIBED_COST as u32 - 1));
 
@@ -46,12 +49,18 @@ pub struct Lattice<'a> {
     width: usize,
     /// 2^64 / width, rounded up: multiplying by it divides by the width.
     inverse_width: u64,
-    straight: [u32; COST_SUMS],
-    diagonal: [u32; COST_SUMS],
 }
 
 /// Sums of two passable costs: 0..=504.
 const COST_SUMS: usize = 2 * (INSCRIBED_COST as usize - 1) + 1;
+
+/// What a step costs by the sum of the two cells' costs, in one of the eight directions.
+#[inline]
+pub const fn step_costs(direction: usize) -> &'static [u32; COST_SUMS] {
+    const SIDE: [u32; COST_SUMS] = table(STRAIGHT);
+    const CORNER: [u32; COST_SUMS] = table(DIAGONAL);
+    if direction < 4 { &SIDE } else { &CORNER }
+}
 
 const fn table(length: u32) -> [u32; COST_SUMS] {
     let mut table = [0; COST_SUMS];
@@ -72,8 +81,6 @@ impl<'a> Lattice<'a> {
             costs: costmap.costs(),
             width: info.width(),
             inverse_width: (u64::MAX / info.width() as u64).wrapping_add(1),
-            straight: const { table(STRAIGHT) },
-            diagonal: const { table(DIAGONAL) },
         }
     }
 
@@ -101,7 +108,13 @@ impl<'a> Lattice<'a> {
     /// Calls `visit` with every allowed step from a cell. A diagonal step needs both
     /// cells beside it passable: no corner is cut.
     #[inline]
-    pub fn for_each_step(&self, from: usize, mut visit: impl FnMut(Step)) {
+    pub fn for_each_step(&self, from: usize, visit: impl FnMut(Step)) {
+        self.for_each_step_among(ALL_DIRECTIONS, from, visit);
+    }
+
+    /// The same with the steps in some directions alone, given as bits.
+    #[inline]
+    pub fn for_each_step_among(&self, directions: u8, from: usize, mut visit: impl FnMut(Step)) {
         let x = self.column(from);
         let here = self.costs[from];
         let open = |inside: bool, index: usize| inside && self.costs[index] < INSCRIBED_COST;
@@ -121,12 +134,12 @@ impl<'a> Lattice<'a> {
             (south && west, from.wrapping_sub(self.width + 1)),
         ];
         for (direction, &(allowed, to)) in steps.iter().enumerate() {
-            if !allowed || self.costs[to] >= INSCRIBED_COST {
+            if !allowed || directions >> direction & 1 == 0 || self.costs[to] >= INSCRIBED_COST {
                 continue;
             }
-            let table = if direction < 4 { &self.straight } else { &self.diagonal };
             let sum = usize::from(here) + usize::from(self.costs[to]);
-            visit(Step { to, cost: table[sum.min(COST_SUMS - 1)], direction: direction as u8 });
+            let cost = step_costs(direction)[sum.min(COST_SUMS - 1)];
+            visit(Step { to, cost, direction: direction as u8 });
         }
     }
 

@@ -3,13 +3,17 @@
 mod astar;
 mod breadth_first;
 mod bucket_queue;
+mod canonical;
+mod change;
 mod d_star_lite;
 mod dijkstra;
 mod endpoints;
 mod field;
+mod ground;
 mod hybrid_astar;
 mod hybrid_search;
 mod lattice;
+mod reach;
 mod search;
 mod swept;
 

@@ -5,7 +5,8 @@
 //! at most two steps: a bucket queue orders them. O(cells), no allocation once warm.
 
 use super::bucket_queue::BucketQueue;
-use super::lattice::{Lattice, MAX_STEP};
+use super::ground::ONWARD_ROUGH;
+use super::lattice::{ALL_DIRECTIONS, Lattice, MAX_STEP};
 
 /// Cost of a cell that was not reached.
 pub const UNREACHED: u32 = u32::MAX;
@@ -53,7 +54,9 @@ impl Search {
                 return true;
             }
             let (costs, came_by, queue) = (&mut self.cost, &mut self.came_by, &mut self.queue);
-            lattice.for_each_step(index, |step| {
+            // The cells beside the step just taken are nearer to the cell before.
+            let onward = ONWARD_ROUGH.get(usize::from(came_by[index])).copied().unwrap_or(ALL_DIRECTIONS);
+            lattice.for_each_step_among(onward, index, |step| {
                 let through_here = cost + step.cost;
                 if through_here < costs[step.to] {
                     costs[step.to] = through_here;

@@ -7,7 +7,7 @@
 //! `orientation_scale` of its launch files weighs the turn that the robot must make,
 //! radians; explore_lite reads it and does not use it.
 
-use super::{Candidate, GoalSelector, Score, SelectionContext};
+use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 use crate::geometry::{Pose, shortest_angle};
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
@@ -51,13 +51,17 @@ impl GoalSelector for ExploreLite {
         "explore_lite"
     }
 
+    fn needs(&self) -> Needs {
+        Needs { nearest: true, ..Needs::default() }
+    }
+
     fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score> {
         let (config, robot) = (self.0, context.robot_in_map);
         candidates
             .iter()
             .map(|c| {
                 let turn_rad = shortest_angle(robot.yaw, Pose::facing(robot.position(), c.target).yaw).abs();
-                let potential = config.potential_scale * c.nearest_m;
+                let potential = config.potential_scale * c.nearest_m.unwrap_or(c.distance_m);
                 let orientation = config.orientation_scale * turn_rad;
                 let gain = config.gain_scale * c.size_m;
                 let parts = [("potential", potential), ("orientation", orientation), ("gain", gain)];

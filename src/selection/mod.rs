@@ -30,15 +30,28 @@ pub struct Candidate {
     pub size_cells: usize,
     /// Cells times resolution, metres.
     pub size_m: f64,
-    /// Radius of the smallest circle around the frontier, metres.
-    pub radius_m: f64,
+    /// Radius of the smallest circle around the frontier, metres; present for the
+    /// strategies that need it.
+    pub radius_m: Option<f64>,
     /// Euclidean distance from the robot to the target, metres.
     pub distance_m: f64,
-    /// Euclidean distance from the robot to the nearest frontier cell, metres.
-    pub nearest_m: f64,
+    /// Euclidean distance from the robot to the nearest frontier cell, metres; present
+    /// for the strategies that need it.
+    pub nearest_m: Option<f64>,
     /// Cost of the cheapest way to the goal, in metres of open space; present for the
     /// strategies that need it.
     pub way_m: Option<f64>,
+}
+
+/// What takes time to find out of each frontier, and is left out unless needed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Needs {
+    /// [`Candidate::radius_m`].
+    pub radius: bool,
+    /// [`Candidate::nearest_m`].
+    pub nearest: bool,
+    /// [`Candidate::way_m`].
+    pub way: bool,
 }
 
 /// What a strategy knows besides the candidates.
@@ -62,9 +75,9 @@ pub trait GoalSelector: Send {
     /// The strategy's name in configuration files.
     fn name(&self) -> &'static str;
 
-    /// Whether [`Candidate::way_m`] is needed.
-    fn needs_ways(&self) -> bool {
-        false
+    /// What it needs to know of each candidate.
+    fn needs(&self) -> Needs {
+        Needs::default()
     }
 
     /// One score for each candidate, in the same order.

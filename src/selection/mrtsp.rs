@@ -9,7 +9,7 @@
 //! programming (Held and Karp 1962), beyond that by the nearest neighbour improved by
 //! moving single frontiers (or-opt) until nothing improves. O(n^2 2^n) and O(n^3).
 
-use super::{Candidate, GoalSelector, Score, SelectionContext};
+use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 
 /// The most frontiers that are ordered exactly.
 pub const EXACT_UP_TO: usize = 10;
@@ -29,26 +29,32 @@ impl GoalSelector for Mrtsp {
         "mrtsp"
     }
 
-    fn needs_ways(&self) -> bool {
-        true
+    fn needs(&self) -> Needs {
+        Needs { way: true, ..Needs::default() }
     }
 
     fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
-        let legs = Legs::new(candidates);
+        let first: Vec<f64> = candidates.iter().map(|c| c.way_m.unwrap_or(c.distance_m) / gain_m(c)).collect();
         let mut nearest_first: Vec<usize> = (0..candidates.len()).collect();
-        nearest_first.sort_by(|&a, &b| legs.first[a].total_cmp(&legs.first[b]).then(a.cmp(&b)));
+        nearest_first.sort_by(|&a, &b| first[a].total_cmp(&first[b]).then(a.cmp(&b)));
         let (kept, cut_off) = nearest_first.split_at(nearest_first.len().min(MOST));
-        let tour = if kept.len() <= EXACT_UP_TO { legs.best_order(kept) } else { legs.good_order(kept) };
+        let legs = Legs::new(kept.iter().map(|&index| (&candidates[index], first[index])));
+        let tour = if kept.len() <= EXACT_UP_TO { legs.best_order() } else { legs.good_order() };
+        let order = tour.iter().map(|&node| kept[node]).chain(cut_off.iter().copied());
         let mut scores = vec![Score::default(); candidates.len()];
-        for (place, &index) in tour.iter().chain(cut_off).enumerate() {
-            let ratio = legs.first[index];
-            scores[index] = Score { total: place as f64, parts: [("place", place as f64), ("ratio", ratio)].into() };
+        for (place, index) in order.enumerate() {
+            let parts = [("place", place as f64), ("ratio", first[index])];
+            scores[index] = Score { total: place as f64, parts: parts.into() };
         }
         scores
     }
 }
 
-/// The ratios of all legs.
+fn gain_m(candidate: &Candidate) -> f64 {
+    candidate.size_m.max(LEAST_GAIN_M)
+}
+
+/// The ratios of all legs of a tour.
 struct Legs {
     /// From the robot.
     first: Vec<f64>,
@@ -57,14 +63,14 @@ struct Legs {
 }
 
 impl Legs {
-    fn new(candidates: &[Candidate]) -> Self {
-        let gain_m = |c: &Candidate| c.size_m.max(LEAST_GAIN_M);
-        let first = candidates.iter().map(|c| c.way_m.unwrap_or(c.distance_m) / gain_m(c)).collect();
-        let between = candidates
+    /// Of candidates with the ratios of their legs from the robot.
+    fn new<'a>(nodes: impl Iterator<Item = (&'a Candidate, f64)>) -> Self {
+        let (nodes, first): (Vec<&Candidate>, Vec<f64>) = nodes.unzip();
+        let between = nodes
             .iter()
             .flat_map(|a| {
                 let from = a.goal.position();
-                candidates.iter().map(move |b| b.goal.distance_to(from) / gain_m(b))
+                nodes.iter().map(move |b| b.goal.distance_to(from) / gain_m(b))
             })
             .collect();
         Self { first, between }
@@ -74,29 +80,29 @@ impl Legs {
         self.between[a * self.first.len() + b]
     }
 
-    fn cost(&self, tour: &[usize]) -> f64 {
-        let first = tour.first().map_or(0.0, |&index| self.first[index]);
-        first + tour.windows(2).map(|pair| self.between(pair[0], pair[1])).sum::<f64>()
+    /// The leg to a frontier from the one before it, or from the robot.
+    fn leg(&self, before: Option<usize>, node: usize) -> f64 {
+        before.map_or(self.first[node], |before| self.between(before, node))
     }
 
     /// The order of least cost, by dynamic programming over sets.
-    fn best_order(&self, nodes: &[usize]) -> Vec<usize> {
-        let count = nodes.len();
+    fn best_order(&self) -> Vec<usize> {
+        let count = self.first.len();
         if count == 0 {
             return Vec::new();
         }
         // least[set * count + last]: cost of the best way through `set` that ends at `last`.
         let mut least = vec![f64::INFINITY; count << count];
         let mut before = vec![usize::MAX; count << count];
-        for (last, &node) in nodes.iter().enumerate() {
-            least[(1 << last) * count + last] = self.first[node];
+        for (last, &cost) in self.first.iter().enumerate() {
+            least[(1 << last) * count + last] = cost;
         }
         for set in 1..1_usize << count {
             for last in (0..count).filter(|last| set & (1 << last) != 0) {
                 let here = least[set * count + last];
                 for next in (0..count).filter(|next| set & (1 << next) == 0) {
                     let slot = (set | 1 << next) * count + next;
-                    let cost = here + self.between(nodes[last], nodes[next]);
+                    let cost = here + self.between(last, next);
                     if cost < least[slot] {
                         least[slot] = cost;
                         before[slot] = last;
@@ -107,23 +113,23 @@ impl Legs {
         let mut set = (1 << count) - 1;
         let mut last =
             (0..count).min_by(|&a, &b| least[set * count + a].total_cmp(&least[set * count + b])).unwrap_or_default();
-        let mut order = vec![nodes[last]];
+        let mut order = vec![last];
         while before[set * count + last] != usize::MAX {
             let previous = before[set * count + last];
             set &= !(1 << last);
             last = previous;
-            order.push(nodes[last]);
+            order.push(last);
         }
         order.reverse();
         order
     }
 
     /// A good order: nearest neighbour, then single moves while they help.
-    fn good_order(&self, nodes: &[usize]) -> Vec<usize> {
-        let mut left = nodes.to_vec();
-        let mut tour: Vec<usize> = Vec::with_capacity(nodes.len());
+    fn good_order(&self) -> Vec<usize> {
+        let mut left: Vec<usize> = (0..self.first.len()).collect();
+        let mut tour: Vec<usize> = Vec::with_capacity(left.len());
         while !left.is_empty() {
-            let leg = |&node: &usize| tour.last().map_or(self.first[node], |&last| self.between(last, node));
+            let leg = |&node: &usize| self.leg(tour.last().copied(), node);
             let next = (0..left.len()).min_by(|&a, &b| leg(&left[a]).total_cmp(&leg(&left[b]))).unwrap_or_default();
             let node = left.remove(next);
             tour.push(node);
@@ -134,20 +140,23 @@ impl Legs {
 
     /// Moves one frontier to a better place, if there is one.
     fn improve(&self, tour: &mut Vec<usize>) -> bool {
-        let cost = self.cost(tour);
         for from in 0..tour.len() {
-            let mut without = tour.clone();
-            let node = without.remove(from);
-            for to in (0..=without.len()).filter(|&to| to != from) {
-                let mut moved = without.clone();
-                moved.insert(to, node);
-                if self.cost(&moved) < cost - 1e-9 {
-                    *tour = moved;
-                    return true;
-                }
+            let node = tour.remove(from);
+            let gained = self.detour(tour, from, node);
+            let better = (0..=tour.len()).find(|&to| to != from && self.detour(tour, to, node) < gained - 1e-9);
+            tour.insert(better.unwrap_or(from), node);
+            if better.is_some() {
+                return true;
             }
         }
         false
+    }
+
+    /// By how much a frontier lengthens a tour at a place in it.
+    fn detour(&self, tour: &[usize], place: usize, node: usize) -> f64 {
+        let before = place.checked_sub(1).map(|before| tour[before]);
+        let here = self.leg(before, node);
+        tour.get(place).map_or(here, |&after| here + self.between(node, after) - self.leg(before, after))
     }
 }
 
@@ -165,21 +174,30 @@ mod tests {
                 goal: Pose::new(x, y, 0.0),
                 size_cells: 1,
                 size_m,
-                radius_m: 0.0,
+                radius_m: None,
                 distance_m,
-                nearest_m: distance_m,
+                nearest_m: None,
                 way_m: Some(distance_m),
             }
         };
         places.iter().map(at).collect()
     }
 
+    fn legs(places: &[(f64, f64, f64)]) -> Legs {
+        Legs::new(candidates(places).iter().map(|c| (c, c.distance_m / gain_m(c))))
+    }
+
+    fn cost(legs: &Legs, tour: &[usize]) -> f64 {
+        let before = [None].into_iter().chain(tour.iter().copied().map(Some));
+        before.zip(tour).map(|(before, &node)| legs.leg(before, node)).sum()
+    }
+
     #[test]
     fn long_legs_lead_to_what_is_large() {
         // 2 / 0.5 + 4.5 / 4 = 5.1 against 2.5 / 4 + 4.5 / 0.5 = 9.6
-        let legs = Legs::new(&candidates(&[(2.0, 0.0, 0.5), (-2.5, 0.0, 4.0)]));
-        assert_eq!(legs.best_order(&[0, 1]), [0, 1]);
-        assert!((legs.cost(&[0, 1]) - 5.125).abs() < 1e-9 && (legs.cost(&[1, 0]) - 9.625).abs() < 1e-9);
+        let legs = legs(&[(2.0, 0.0, 0.5), (-2.5, 0.0, 4.0)]);
+        assert_eq!(legs.best_order(), [0, 1]);
+        assert!((cost(&legs, &[0, 1]) - 5.125).abs() < 1e-9 && (cost(&legs, &[1, 0]) - 9.625).abs() < 1e-9);
     }
 
     proptest! {
@@ -187,13 +205,22 @@ mod tests {
         fn exact_orders_are_the_best_and_good_ones_are_orders(
             places in proptest::collection::vec((-9.0f64..9.0, -9.0f64..9.0, 0.1f64..3.0), 1..7),
         ) {
-            let legs = Legs::new(&candidates(&places));
+            let legs = legs(&places);
             let nodes: Vec<usize> = (0..places.len()).collect();
-            let best = legs.best_order(&nodes);
-            let least = permutations(&nodes).iter().map(|p| legs.cost(p)).fold(f64::INFINITY, f64::min);
-            prop_assert!((legs.cost(&best) - least).abs() < 1e-9);
-            let mut good = legs.good_order(&nodes);
-            prop_assert!(legs.cost(&good) >= least - 1e-9);
+            let best = legs.best_order();
+            let least = permutations(&nodes).iter().map(|p| cost(&legs, p)).fold(f64::INFINITY, f64::min);
+            prop_assert!((cost(&legs, &best) - least).abs() < 1e-9);
+            let mut good = legs.good_order();
+            prop_assert!(cost(&legs, &good) >= least - 1e-9);
+            // No single move makes it better.
+            for from in 0..good.len() {
+                for to in 0..good.len() {
+                    let mut moved = good.clone();
+                    let node = moved.remove(from);
+                    moved.insert(to, node);
+                    prop_assert!(cost(&legs, &moved) >= cost(&legs, &good) - 1e-6);
+                }
+            }
             good.sort_unstable();
             prop_assert_eq!(good, nodes);
         }

@@ -4,7 +4,7 @@
 //! order of the Euclidean distance from the current robot pose". Yamauchi 1997 goes to
 //! the nearest by the way that the planner finds.
 
-use super::{Candidate, GoalSelector, Score, SelectionContext};
+use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 use serde::{Deserialize, Serialize};
 
 /// How nearness is measured.
@@ -46,8 +46,8 @@ impl GoalSelector for Nearest {
         "nearest"
     }
 
-    fn needs_ways(&self) -> bool {
-        self.0.distance == DistanceMeasure::Path
+    fn needs(&self) -> Needs {
+        Needs { way: self.0.distance == DistanceMeasure::Path, ..Needs::default() }
     }
 
     fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {

@@ -9,9 +9,9 @@ fn candidates() -> Vec<Candidate> {
         goal: Pose::new(x, 0.0, 0.0),
         size_cells: (size_m * 20.0) as usize,
         size_m,
-        radius_m,
+        radius_m: Some(radius_m),
         distance_m: x,
-        nearest_m: x,
+        nearest_m: Some(x),
         way_m: Some(way_m),
     };
     vec![at(1.0, 0.3, 0.15, 9.0), at(8.0, 6.0, 3.0, 8.0), at(3.0, 2.0, 1.2, 4.0)]

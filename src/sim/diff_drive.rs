@@ -103,8 +103,16 @@ impl DiffDrive {
 
     fn substep(&mut self, world: &World, command: &Twist, dt_s: f64) {
         self.twist = self.limits.reachable(&self.twist, command, dt_s);
-        let next = self.twist.advance(&self.pose, dt_s);
-        if self.body.fits(world, &next) {
+        let mut next = self.twist.advance(&self.pose, dt_s);
+        let mut fits = self.body.fits(world, &next);
+        if !fits {
+            self.touch();
+            // What stands in the way stops the wheels' push, not their turn.
+            self.twist.linear_mps = 0.0;
+            next = self.twist.advance(&self.pose, dt_s);
+            fits = self.body.fits(world, &next);
+        }
+        if fits {
             self.odometry.advance(&self.twist, dt_s);
             self.pose = next;
             self.distance_m += (self.twist.linear_mps * dt_s).abs();
@@ -112,10 +120,14 @@ impl DiffDrive {
             self.contact = self.contact.filter(|at| !is_clear_of(at, &next));
         } else {
             self.twist = Twist::ZERO;
-            if self.contact.is_none() {
-                self.collisions += 1;
-                self.contact = Some(self.pose);
-            }
+        }
+    }
+
+    /// Counts a collision, once for each contact.
+    fn touch(&mut self) {
+        if self.contact.is_none() {
+            self.collisions += 1;
+            self.contact = Some(self.pose);
         }
     }
 }
@@ -173,6 +185,19 @@ mod tests {
             robot.drive(&hall(), &Twist::new(0.5, 0.0), 0.1);
         }
         assert_eq!(robot.collisions(), 2);
+    }
+
+    #[test]
+    fn a_disc_that_pushes_against_a_wall_still_turns() {
+        let mut robot = body(&Footprint::RadiusM(0.2), Pose::new(5.0, 2.0, 0.0));
+        for _ in 0..40 {
+            robot.drive(&hall(), &Twist::new(0.5, 0.0), 0.1);
+        }
+        let at = robot.pose();
+        for _ in 0..10 {
+            robot.drive(&hall(), &Twist::new(0.5, 1.0), 0.1);
+        }
+        assert!(robot.pose().yaw > 0.5 && robot.pose().x - at.x < 0.05, "{:?}", robot.pose());
     }
 
     #[test]

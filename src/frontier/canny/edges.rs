@@ -29,35 +29,29 @@ impl Blurred {
         // A gradient looks one row further, and so does its comparison with its neighbours.
         let (first, last) = cells.iter().fold((i32::MAX, 0), |(a, b), cell| (a.min(cell.y - 2), b.max(cell.y + 2)));
         let first = usize::try_from(first).unwrap_or_default();
-        let rows = |margin: usize| {
-            let end = (last as usize + margin + 1).min(height);
-            (first.saturating_sub(margin).min(end), end)
-        };
-        let mut level = vec![0i32; info.len()];
-        let mut row = vec![0i32; width + 2 * reach];
-        let (from, to) = rows(reach);
-        for (out, line) in level.chunks_exact_mut(width).zip(picture.chunks_exact(width)).take(to).skip(from) {
-            for (x, padded) in row.iter_mut().enumerate() {
-                *padded = i32::from(line[x.saturating_sub(reach).min(width - 1)]);
+        let last = (last as usize + 1).min(height);
+        let mut pixels = vec![0i32; info.len()];
+        // One row blurred across, with the rim going on at both ends.
+        let mut across = vec![0i32; width + 2 * reach];
+        for (y, out) in pixels.chunks_exact_mut(width).enumerate().take(last).skip(first) {
+            let row = |y: usize| &picture[y.min(height - 1) * width..][..width];
+            let mut sums = across[reach..reach + width].iter_mut();
+            let [here, near, middle, far] = [0, 1, 2, 3].map(|d| row(y + d).iter().zip(row(y.saturating_sub(d))));
+            for ((((sum, here), near), middle), far) in sums.by_ref().zip(here).zip(near).zip(middle).zip(far) {
+                let pair = |(&above, &below): (&u8, &u8)| i32::from(above) + i32::from(below);
+                *sum = KERNEL[0] * i32::from(*here.0)
+                    + KERNEL[1] * pair(near)
+                    + KERNEL[2] * pair(middle)
+                    + KERNEL[3] * pair(far);
             }
-            for (pixel, w) in out.iter_mut().zip(row.windows(2 * reach + 1)) {
+            let (left, right) = (across[reach], across[reach + width - 1]);
+            across[..reach].fill(left);
+            across[reach + width..].fill(right);
+            for (pixel, w) in out.iter_mut().zip(across.windows(2 * reach + 1)) {
                 *pixel = KERNEL[0] * w[3]
                     + KERNEL[1] * (w[2] + w[4])
                     + KERNEL[2] * (w[1] + w[5])
                     + KERNEL[3] * (w[0] + w[6]);
-            }
-        }
-        let mut pixels = vec![0i32; info.len()];
-        let (from, to) = rows(0);
-        for (y, out) in pixels.chunks_exact_mut(width).enumerate().take(to).skip(from) {
-            for (distance, weight) in KERNEL.iter().enumerate() {
-                let above = (y + distance).min(height - 1) * width;
-                let below = y.saturating_sub(distance) * width;
-                let weight_above = if distance == 0 { 0 } else { *weight };
-                let (above, below) = (&level[above..above + width], &level[below..below + width]);
-                for ((pixel, a), b) in out.iter_mut().zip(above).zip(below) {
-                    *pixel += weight_above * a + weight * b;
-                }
             }
         }
         Self { info: *info, pixels }

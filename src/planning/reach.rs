@@ -1,0 +1,74 @@
+//! Which cells the robot can get to, without the ways.
+
+use crate::grid::{BitPlane, Costmap, INSCRIBED_COST};
+
+/// The passable cells connected with `start` along their sides: row by row, one run of
+/// cells at a time (A. R. Smith, "Tint fill", SIGGRAPH 1979), on a plane of bits. A
+/// diagonal step of the lattice needs both cells beside it, so these are the cells that
+/// the lattice reaches. O(cells) to read the costs, and a small part of it for the rest.
+pub fn connected(costmap: &Costmap, start: usize) -> BitPlane {
+    let (width, height) = (costmap.info().width(), costmap.info().height());
+    let mut open = BitPlane::of_values(width, costmap.costs(), |cost| cost < INSCRIBED_COST);
+    let mut reached = open.clone();
+    let mut seeds = vec![(start % width, start / width)];
+    while let Some((x, y)) = seeds.pop() {
+        if open.first_in(y, x..x + 1).is_none() {
+            continue;
+        }
+        let run = open.run_around(y, x);
+        open.clear_run(y, run.start, run.end);
+        for beside in [y.wrapping_sub(1), y + 1] {
+            if beside >= height {
+                continue;
+            }
+            let mut from = run.start;
+            while let Some(seed) = open.first_in(beside, from..run.end) {
+                seeds.push((seed, beside));
+                from = open.run_around(beside, seed).end;
+                if from >= run.end {
+                    break;
+                }
+            }
+        }
+    }
+    reached.subtract(&open);
+    reached
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+    use crate::grid::{Cell, GridInfo, Neighbourhood};
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Against a flood cell by cell.
+        #[test]
+        fn reaches_what_is_connected(
+            width in 1u32..150,
+            costs in proptest::collection::vec(prop_oneof![3 => 0u8..253, 1 => 253u8..=255], 900),
+            start in 0usize..900,
+        ) {
+            let info = GridInfo::new(width, 900 / width, 1.0, Pose::default()).unwrap();
+            let mut costs = costs[..info.len()].to_vec();
+            let start = start % info.len();
+            costs[start] = 0;
+            let costmap = Costmap::from_costs(info, costs).unwrap();
+            let mut flood = vec![info.cell(start)];
+            let mut next = 0;
+            while let Some(&cell) = flood.get(next) {
+                next += 1;
+                let around: Vec<Cell> = info.neighbours(cell, Neighbourhood::Four).collect();
+                for beside in around {
+                    if costmap.is_passable(beside) && !flood.contains(&beside) {
+                        flood.push(beside);
+                    }
+                }
+            }
+            let reached = connected(&costmap, start);
+            prop_assert_eq!(reached.count(), flood.len());
+            prop_assert!(flood.iter().all(|&cell| reached.contains(cell)));
+        }
+    }
+}
