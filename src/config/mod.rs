@@ -2,11 +2,13 @@
 
 mod merge;
 mod node;
+mod params;
 mod preset;
 mod robot;
 mod robots;
 
 pub use node::{NodeParams, NodeParamsError, TurnBy};
+pub use params::{ParamError, read_params};
 pub use preset::{Drive, NavigationSettings, Preset, PresetError};
 pub use robot::{CostmapConfig, LidarConfig, RobotConfig, RobotConfigError};
 pub use robots::{BUILTIN_ROBOTS, builtin_robot};

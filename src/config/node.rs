@@ -5,6 +5,7 @@
 //! works with another `pkg` and `type`.
 
 use super::merge::merge;
+use super::params::{ParamError, read_params};
 use super::preset::{Preset, PresetError};
 use crate::geometry::{Point, Polygon};
 use crate::grid::Thresholds;
@@ -17,13 +18,8 @@ use serde_json::{Map, Value};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NodeParamsError {
     /// A name that is not known, or a value of the wrong kind.
-    #[error("parameter ~{path}: {message}")]
-    Wrong {
-        /// Where it stands, with dots between the levels.
-        path: String,
-        /// What is wrong and what is allowed.
-        message: String,
-    },
+    #[error("parameter ~{0}")]
+    Wrong(#[from] ParamError),
     /// A number out of its range.
     #[error("parameter ~{0}")]
     OutOfRange(#[from] OutOfRange),
@@ -154,7 +150,7 @@ impl NodeParams {
     /// # Errors
     /// [`NodeParamsError`] with the parameter, its value and what is allowed.
     pub fn from_tree(tree: Value) -> Result<Self, NodeParamsError> {
-        let mut params: Self = from_value(tree)?;
+        let mut params: Self = read_params(tree)?;
         let replace = |ours: &mut String, theirs: &mut Option<String>| {
             if let Some(name) = theirs.take() {
                 *ours = name;
@@ -180,7 +176,7 @@ impl NodeParams {
         {
             if text.is_empty() {
                 let message = "is empty: must be a name".to_owned();
-                return Err(NodeParamsError::Wrong { path: name.to_owned(), message });
+                return Err(ParamError { path: name.to_owned(), message }.into());
             }
         }
         Ok(())
@@ -199,8 +195,8 @@ impl NodeParams {
     /// # Errors
     /// [`NodeParamsError`] with the parameter, its value and what is allowed.
     pub fn apply_to(&self, base: Preset) -> Result<Preset, NodeParamsError> {
-        let mut tree = serde_json::to_value(base)
-            .map_err(|e| NodeParamsError::Wrong { path: "config".to_owned(), message: e.to_string() })?;
+        let mut tree =
+            serde_json::to_value(base).map_err(|e| ParamError { path: "config".to_owned(), message: e.to_string() })?;
         let mut over = Map::new();
         let parts = [("explorer", &self.explorer), ("navigation", &self.navigation)];
         over.extend(parts.into_iter().filter_map(|(name, part)| Some((name.to_owned(), part.clone()?))));
@@ -208,7 +204,7 @@ impl NodeParams {
             over.insert("preset".to_owned(), Value::String(name.clone()));
         }
         merge(&mut tree, Value::Object(over));
-        let mut preset: Preset = from_value(tree)?;
+        let mut preset: Preset = read_params(tree)?;
         self.set_explore_lite(&mut preset);
         if self.map_topic.ends_with("costmap") {
             // A published costmap: 100 is an obstacle, and what is below was inflated
@@ -247,14 +243,6 @@ impl NodeParams {
         }
         explorer.return_to_start = self.return_to_init.unwrap_or(explorer.return_to_start);
     }
-}
-
-fn from_value<T: for<'de> Deserialize<'de>>(tree: Value) -> Result<T, NodeParamsError> {
-    serde_path_to_error::deserialize(tree).map_err(|error| {
-        let path = error.path().to_string();
-        let path = if path == "." { String::new() } else { path };
-        NodeParamsError::Wrong { path, message: error.into_inner().to_string() }
-    })
 }
 
 #[cfg(test)]

@@ -20,6 +20,7 @@ pub mod msg;
 mod node;
 mod params;
 mod pilot;
+mod program;
 mod region;
 mod robot;
 mod scan_feed;

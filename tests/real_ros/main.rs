@@ -17,8 +17,8 @@ use std::sync::OnceLock;
 use std::time::Duration;
 
 const SOON: Duration = Duration::from_secs(30);
-/// cargo may have to build the binaries for catkin.
-const BUILD: Duration = Duration::from_secs(1200);
+/// Messages are generated for C++, Python and Lisp.
+const BUILD: Duration = Duration::from_secs(300);
 
 const TESTS: &[(&str, fn(&Stage))] = &[
     ("a_stack_of_real_parts_is_explored", real_parts),
@@ -193,11 +193,11 @@ fn workspace() -> &'static Path {
                 std::os::unix::fs::symlink(entry.path(), package.join(entry.file_name())).unwrap();
             }
         }
-        let target = Path::new(env!("CARGO_BIN_EXE_explore_node")).parent().unwrap().parent().unwrap();
+        let binaries = Path::new(env!("CARGO_BIN_EXE_explore_node")).parent().unwrap();
         let command = format!(
-            "cd {} && catkin_make install -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCARGO_PROFILE=dev -DCARGO_TARGET_DIR={}",
+            "cd {} && catkin_make install -DPYTHON_EXECUTABLE=/usr/bin/python3 -DFRONTIER_EXPLORER_BINARIES={}",
             root.path().display(),
-            target.display()
+            binaries.display()
         );
         let log = root.path().join("build.log");
         let mut build = Process::start_in("bash", &["-c", &command], log, &[]);

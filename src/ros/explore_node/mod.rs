@@ -7,8 +7,8 @@ mod watcher;
 
 use super::display::status_sentence;
 use super::node::{Node, NodeError};
+use super::program::run_program;
 use super::robot::RosRobot;
-use super::{Log, stop};
 use crate::config::{NodeParams, NodeParamsError, Preset, RobotConfig};
 use crate::explore::{End, Explorer, SettingsError, run as explore};
 use crate::geometry::Polygon;
@@ -54,28 +54,7 @@ pub(super) struct Settings {
 /// having explored everything.
 #[must_use]
 pub fn explore_node() -> u8 {
-    if let Err(why) = stop::listen() {
-        Log::new("explore").error(why);
-        return 1;
-    }
-    let node = match Node::start("explore") {
-        Ok(node) => node,
-        Err(NodeError::Stopped) => return 0,
-        Err(error) => {
-            Log::new("explore").error(error);
-            return 1;
-        }
-    };
-    let code = match explore_with(&node) {
-        Ok(code) => code,
-        Err(error) => {
-            node.log().error(error);
-            1
-        }
-    };
-    stop::leave_in_time(code);
-    node.finish();
-    code
+    run_program("explore", explore_with)
 }
 
 fn read_settings(node: &Node) -> Result<Settings, ExploreNodeError> {

@@ -11,11 +11,12 @@ mod topics;
 
 pub use params::{Fault, SimParams, SimParamsError};
 
+use super::Feed;
 use super::convert;
 use super::msg::geometry_msgs::Twist as TwistMessage;
 use super::msg::std_msgs::String as StringMessage;
 use super::node::{Node, NodeError};
-use super::{Feed, Log, stop};
+use super::program::run_program;
 use crate::geometry::Twist;
 use crate::io::{MapError, SettingsFileError, load_preset, load_robot, load_world};
 use crate::navigation::Navigator;
@@ -65,28 +66,7 @@ pub enum SimNodeError {
 /// Runs the simulator until it is told to stop; returns the exit code.
 #[must_use]
 pub fn sim_node() -> u8 {
-    if let Err(why) = stop::listen() {
-        Log::new("sim").error(why);
-        return 1;
-    }
-    let node = match Node::start("sim") {
-        Ok(node) => node,
-        Err(NodeError::Stopped) => return 0,
-        Err(error) => {
-            Log::new("sim").error(error);
-            return 1;
-        }
-    };
-    let code = match simulate_with(&node) {
-        Ok(()) => 0,
-        Err(error) => {
-            node.log().error(error);
-            1
-        }
-    };
-    stop::leave_in_time(code);
-    node.finish();
-    code
+    run_program("sim", |node| simulate_with(node).map(|()| 0))
 }
 
 /// Simulates with a node that has begun, as [`sim_node`] does.

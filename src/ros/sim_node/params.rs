@@ -1,5 +1,6 @@
 //! The parameters of `sim_node`.
 
+use crate::config::{ParamError, read_params};
 use crate::geometry::Pose;
 use crate::range::OutOfRange;
 use crate::sim::MapStyle;
@@ -10,13 +11,8 @@ use serde_json::Value;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SimParamsError {
     /// A name that is not known, or a value of the wrong kind.
-    #[error("parameter ~{path}: {message}")]
-    Wrong {
-        /// Where it stands.
-        path: String,
-        /// What is wrong and what is allowed.
-        message: String,
-    },
+    #[error("parameter ~{0}")]
+    Wrong(#[from] ParamError),
     /// A number out of its range.
     #[error("parameter ~{0}")]
     OutOfRange(#[from] OutOfRange),
@@ -108,15 +104,10 @@ impl SimParams {
     /// # Errors
     /// [`SimParamsError`] with the parameter, its value and what is allowed.
     pub fn from_tree(tree: Value) -> Result<Self, SimParamsError> {
-        let params: Self = serde_path_to_error::deserialize(tree).map_err(|error| {
-            let path = error.path().to_string();
-            SimParamsError::Wrong { path, message: error.into_inner().to_string() }
-        })?;
+        let params: Self = read_params(tree)?;
         let speed = params.speed;
         OutOfRange::unless((0.1..=100.0).contains(&speed), "speed", speed, "within 0.1 to 100")?;
-        for (key, value) in [("lidar_noise", params.lidar_noise.unwrap_or(0.0))] {
-            OutOfRange::unless_not_negative(key, value)?;
-        }
+        OutOfRange::unless_not_negative("lidar_noise", params.lidar_noise.unwrap_or(0.0))?;
         for value in params.odometry_noise {
             OutOfRange::unless_not_negative("odometry_noise", value)?;
         }
@@ -139,7 +130,7 @@ impl SimParams {
             return Ok(Some(pose));
         }
         let message = format!("is {:?}: must be x, y or x, y, yaw in metres and radians", self.start);
-        Err(SimParamsError::Wrong { path: "start".to_owned(), message })
+        Err(ParamError { path: "start".to_owned(), message }.into())
     }
 }
 

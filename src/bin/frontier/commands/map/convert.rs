@@ -15,6 +15,13 @@ pub struct Args {
     input: PathBuf,
     /// Where to write: OUTPUT.yaml and an image beside it.
     output: PathBuf,
+    #[command(flatten)]
+    saving: Saving,
+}
+
+/// How a map is written.
+#[derive(Debug, clap::Args)]
+pub struct Saving {
     /// A cell with at least this occupancy (percent) is written as occupied.
     #[arg(long, value_name = "PERCENT", default_value_t = 65, value_parser = clap::value_parser!(i8).range(1..=100))]
     occ: i8,
@@ -26,38 +33,32 @@ pub struct Args {
     format: Format,
 }
 
+impl Saving {
+    /// The options, checked against each other.
+    pub fn options(&self) -> anyhow::Result<SaveOptions> {
+        let Self { occ, free, format } = *self;
+        ensure!(free < occ, "--free {free} and --occ {occ}: --free must be below --occ");
+        let image = match format {
+            Format::Pgm => MapImage::Pgm,
+            Format::Png => MapImage::Png,
+        };
+        Ok(SaveOptions { thresholds: Thresholds { free_max: free, occupied_min: occ }, image })
+    }
+}
+
 /// Kinds of image.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Format {
+enum Format {
     /// Binary greymap, as map_saver writes it.
     Pgm,
     /// Grey PNG.
     Png,
 }
 
-impl From<Format> for MapImage {
-    fn from(format: Format) -> Self {
-        match format {
-            Format::Pgm => Self::Pgm,
-            Format::Png => Self::Png,
-        }
-    }
-}
-
-/// Checks the two thresholds against each other.
-pub fn check_thresholds(free: i8, occ: i8) -> anyhow::Result<()> {
-    ensure!(free < occ, "--free {free} and --occ {occ}: --free must be below --occ");
-    Ok(())
-}
-
 /// Runs `frontier map convert`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
-    check_thresholds(args.free, args.occ)?;
+    let options = args.saving.options()?;
     let map = load_map(&args.input)?;
-    let options = SaveOptions {
-        thresholds: Thresholds { free_max: args.free, occupied_min: args.occ },
-        image: args.format.into(),
-    };
     let saved = save_map(&args.output, &map.grid, &options)?;
     output::line(format_args!("{}", saved.yaml.display()))?;
     output::line(format_args!("{}", saved.image.display()))?;

@@ -1,11 +1,10 @@
 //! `frontier map save`: one map from a ROS topic, as map_saver saves it.
 
-use super::convert::{Format, check_thresholds};
+use super::convert::Saving;
 use crate::exit::Outcome;
 use crate::output;
 use anyhow::anyhow;
-use frontier_explorer::grid::Thresholds;
-use frontier_explorer::io::{SaveOptions, save_map};
+use frontier_explorer::io::save_map;
 use frontier_explorer::ros::{Node, receive_map, stop};
 use std::path::PathBuf;
 use std::time::Duration;
@@ -16,15 +15,8 @@ pub struct Args {
     /// Where to write: FILE.yaml and an image beside it.
     #[arg(short = 'f', value_name = "FILE", default_value = "map")]
     file: PathBuf,
-    /// A cell with at least this occupancy (percent) is written as occupied.
-    #[arg(long, value_name = "PERCENT", default_value_t = 65, value_parser = clap::value_parser!(i8).range(1..=100))]
-    occ: i8,
-    /// A cell with at most this occupancy (percent) is written as free.
-    #[arg(long, value_name = "PERCENT", default_value_t = 25, value_parser = clap::value_parser!(i8).range(0..=99))]
-    free: i8,
-    /// Kind of image to write.
-    #[arg(long, value_enum, default_value_t = Format::Pgm)]
-    format: Format,
+    #[command(flatten)]
+    saving: Saving,
     /// The topic of the map.
     #[arg(long, default_value = "map")]
     topic: String,
@@ -38,17 +30,13 @@ pub struct Args {
 
 /// Runs `frontier map save`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
-    check_thresholds(args.free, args.occ)?;
+    let options = args.saving.options()?;
     if let Some(stranger) = args.remappings.iter().find(|word| !word.contains(":=")) {
         return Err(anyhow!("{stranger}: must be a remapping such as map:=/robot/map; the file is given with -f"));
     }
     stop::listen().map_err(|why| anyhow!(why))?;
     let node = Node::start("frontier_map_save")?;
     let map = receive_map(&node, &args.topic, Duration::from_secs(args.timeout)).map_err(|why| anyhow!(why))?;
-    let options = SaveOptions {
-        thresholds: Thresholds { free_max: args.free, occupied_min: args.occ },
-        image: args.format.into(),
-    };
     let saved = save_map(&args.file, &map.grid, &options)?;
     output::line(format_args!("{}", saved.yaml.display()))?;
     output::line(format_args!("{}", saved.image.display()))?;

@@ -1,0 +1,30 @@
+//! A node as a program: from signals to the exit code.
+
+use super::log::Log;
+use super::node::{Node, NodeError};
+use super::stop;
+use std::fmt::Display;
+
+/// Starts a node, lets it work, and says good-bye. Returns the exit code: what the work
+/// returns, or 1 with a line on what failed.
+pub(super) fn run_program<E: Display>(name: &str, work: impl FnOnce(&Node) -> Result<u8, E>) -> u8 {
+    let failed = |why: &dyn Display| {
+        Log::new(name).error(why);
+        1
+    };
+    if let Err(why) = stop::listen() {
+        return failed(&why);
+    }
+    let node = match Node::start(name) {
+        Ok(node) => node,
+        Err(NodeError::Stopped) => return 0,
+        Err(error) => return failed(&error),
+    };
+    let code = work(&node).unwrap_or_else(|error| {
+        node.log().error(error);
+        1
+    });
+    stop::leave_in_time(code);
+    node.finish();
+    code
+}
