@@ -4,6 +4,7 @@ use super::*;
 use crate::explore::{PatienceSettings, TurnSettings};
 use crate::geometry::{Footprint, MotionLimits};
 use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
+use crate::planning::{HybridAstarConfig, PlannerConfig};
 use crate::robot::{Navigation, PoseError};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -236,4 +237,27 @@ fn a_robot_off_its_map_waits_for_a_better_one() {
     let decision = explorer.step(&robot.observation());
     assert_eq!(decision.end, None);
     assert!(decision.record.is_some(), "goes on as soon as the map serves");
+}
+
+#[test]
+fn a_goal_too_far_for_the_planner_is_approached_in_stages() {
+    let hybrid = HybridAstarConfig { max_expansions: 200, ..HybridAstarConfig::DEFAULT };
+    let turns = TurnSettings { recoveries: 0, ..TurnSettings::default() };
+    let settings =
+        ExplorerSettings { planner: PlannerConfig::HybridAstar(hybrid), turns, ..ExplorerSettings::default() };
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let mut explorer = Explorer::new(settings, POINT_ROBOT, &BODY).unwrap();
+    let mut stages = 0;
+    for _ in 0..2000 {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+        stages += usize::from(decision.record.is_some_and(|record| record.why.contains("part of the way")));
+        if let Some(end) = decision.end {
+            assert_eq!(end.reason, EndReason::Complete, "{}", end.message);
+            break;
+        }
+    }
+    assert!(stages > 0);
+    // No stage counts as a visit in vain, which would exhaust a frontier.
+    assert_eq!(explorer.left_behind, LeftBehind::default());
 }

@@ -79,6 +79,46 @@ fn a_goal_without_a_path_is_aborted_with_its_reason() {
     assert!((2.0..3.0).contains(&after_s));
 }
 
+/// Plans once and gives up from then on.
+struct GivesUp(Astar, bool);
+
+impl GlobalPlanner for GivesUp {
+    fn name(&self) -> &'static str {
+        "gives_up"
+    }
+
+    fn plan(&mut self, costmap: &Costmap, start: &Pose, goal: &Pose) -> Result<Path, PlanError> {
+        if std::mem::replace(&mut self.1, true) {
+            return Err(PlanError::IterationLimit { limit: 1 });
+        }
+        self.0.plan(costmap, start, goal)
+    }
+}
+
+#[test]
+fn a_free_path_serves_on_when_the_planner_gives_up() {
+    let body = Body { footprint: Footprint::RadiusM(0.18), limits: LIMITS };
+    let follower = PathFollower::new(FollowerConfig::default(), body);
+    let planner = GivesUp(Astar::default(), false);
+    let mut navigator = Navigator::new(NavigatorConfig::default(), Box::new(planner), Box::new(follower));
+    navigator.command(&Command::Drive { id: 1, goal_in_map: Pose::new(8.0, 5.0, 0.0) });
+    let input = |stamp_s, costmap| NavigationInput {
+        stamp_s,
+        pose_in_map: Pose::new(1.0, 5.0, 0.0),
+        twist: Twist::ZERO,
+        costmap,
+        costmap_stamp_s: stamp_s,
+        scan: None,
+    };
+    let (open, walled) = (costmap(|_| false), costmap(|c| c.x == 50));
+    for stamp_s in [0.0, 3.0, 6.0, 9.0] {
+        assert_eq!(navigator.update(&input(stamp_s, &open)).1.state, NavigationState::Active);
+        assert!(navigator.path().is_some(), "after {stamp_s} s");
+    }
+    navigator.update(&input(12.0, &walled));
+    assert!(navigator.path().is_none(), "a path through a wall does not serve");
+}
+
 #[test]
 fn a_full_turn_takes_its_time() {
     let (end, state, after_s) =

@@ -14,13 +14,14 @@
 //! passable cell, as with the other planners.
 //!
 //! The path's cost is its length in metres. An expansion takes about two microseconds
-//! for a disc, four for a polygon. A grid search asks beforehand whether there is a way
+//! for a disc, four for a polygon. A flood asks beforehand whether there is a way
 //! at all, so that a goal behind walls costs no expansions. Limits: the path is not the
 //! shortest possible (few motions, one state kept per bin), a narrow place may be
 //! missed, and obstacles thinner than half a cell may be clipped. With the paper's
 //! heuristic a goal behind many rooms spends the default limit in dead ends (about one
 //! in four of 5 to 20 m in an office building); [`HybridHeuristic::Grid`] finds most of
-//! those, or a larger limit does in more time.
+//! those, or a larger limit does in more time. The explorer tries its other goals then,
+//! and when none is left drives part of the way and asks again.
 
 use super::endpoints::{goal_index, start_index};
 use super::hybrid_search::{Outcome, Primitive, Task, search};
