@@ -10,6 +10,7 @@ mod params;
 mod plane;
 mod representative;
 mod runs;
+mod tracker;
 mod wavefront;
 mod yamauchi;
 
@@ -20,6 +21,7 @@ pub use fast::{Fast, FastParams};
 pub use image::{ImageDetector, ImageParams};
 pub use params::{DetectorParams, DetectorParamsError, Reachability};
 pub use representative::Representative;
+pub use tracker::{FrontierEvent, FrontierId, FrontierTracker, Tracked};
 pub use wavefront::Wavefront;
 pub use yamauchi::Yamauchi;
 
