@@ -7,7 +7,8 @@
 //! ```text
 //! cargo bench --bench detect -- 1000 2000 office        # these sizes, this scene
 //! cargo bench --bench detect -- --svg docs/performance.svg --markdown
-//! FRONTIER_BENCH_MAP=willow.yaml cargo bench --bench detect   # that floor, tiled, too
+//! FRONTIER_BENCH_MAP=willow.yaml FRONTIER_BENCH_AT=25,20 cargo bench --bench detect
+//!                                                       # that floor, tiled, too
 //! ```
 
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
@@ -20,6 +21,7 @@ mod scenes;
 mod table;
 
 use frontier_explorer::frontier::{Bitplane, DetectionInput, DetectorParams, FrontierDetector, Incremental, Wavefront};
+use frontier_explorer::geometry::Point;
 use frontier_explorer::grid::{Cell, CellRect, OccupancyGrid};
 use frontier_explorer::io::load_map;
 use scenes::Scene;
@@ -86,7 +88,11 @@ fn options() -> Options {
 fn main() {
     let options = options();
     let office = load_map(&Path::new(env!("CARGO_MANIFEST_DIR")).join("maps/office.yaml")).unwrap().grid;
-    let other = std::env::var_os("FRONTIER_BENCH_MAP").map(|path| load_map(Path::new(&path)).unwrap().grid);
+    let other = std::env::var_os("FRONTIER_BENCH_MAP").map(|path| {
+        let at = std::env::var("FRONTIER_BENCH_AT").unwrap();
+        let (x, y) = at.split_once(',').unwrap();
+        (load_map(Path::new(&path)).unwrap().grid, Point::new(x.parse().unwrap(), y.parse().unwrap()))
+    });
     let mut rows = Vec::new();
     for &size in &options.sizes {
         for name in ["office", "other", "noise", "shut-in", "empty"] {
@@ -96,7 +102,7 @@ fn main() {
             let scene = match name {
                 "office" => scenes::tiled(name, &office, size),
                 "other" => match &other {
-                    Some(floor) => scenes::tiled(name, floor, size),
+                    Some((floor, at)) => scenes::standing(scenes::tiled(name, floor, size), floor, *at),
                     None => continue,
                 },
                 "noise" => scenes::salt_and_pepper(name, size, 70),

@@ -100,6 +100,19 @@ pub fn tiled(name: &'static str, floor: &OccupancyGrid, size: u32) -> Scene {
     scene(name, grid, robot)
 }
 
+/// A tiled scene with the robot at a place of the floor, in the tile in the middle.
+#[allow(dead_code)] // not every user asks for a place
+pub fn standing(mut scene: Scene, floor: &OccupancyGrid, at: Point) -> Scene {
+    let (width, height) = (floor.info().width() as i32, floor.info().height() as i32);
+    let size = scene.grid.info().width() as i32;
+    let in_floor = floor.info().cell_at(at);
+    let tile = |length: i32, place: i32| (size / 2 / length * length + place).min(size - 1);
+    let robot = Cell::new(tile(width, in_floor.x), tile(height, in_floor.y));
+    let Point { coords } = scene.grid.info().center(robot);
+    scene.robot = Pose::new(coords.x, coords.y, 0.0);
+    scene
+}
+
 /// Fills a disc; cells beyond the grid are left out.
 pub fn disc(grid: &mut OccupancyGrid, centre: Cell, radius: i32, value: i8) {
     for dy in -radius..=radius {

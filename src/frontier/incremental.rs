@@ -100,11 +100,11 @@ impl Incremental {
         self.mark_stale();
         self.find_frontier_cells();
         let min_cells = self.params.min_cells(info);
-        if self.min_cells == Some(min_cells) {
-            let (frontier, neighbours) = (&mut self.frontier, self.params.neighbours);
-            self.groups.update(frontier, &self.tiling, &self.regroup, neighbours, min_cells, &mut self.found);
-        } else {
-            self.clusters.collect(&self.frontier, self.params.neighbours, min_cells, &mut self.found);
+        let (frontier, neighbours) = (&mut self.frontier, self.params.neighbours);
+        let repaired = self.min_cells == Some(min_cells)
+            && self.groups.update(frontier, &self.tiling, &self.regroup, neighbours, min_cells, &mut self.found);
+        if !repaired {
+            self.clusters.collect(frontier, neighbours, min_cells, &mut self.found);
             self.min_cells = Some(min_cells);
         }
         self.regroup.fill(false);
@@ -223,6 +223,7 @@ impl Incremental {
                 continue;
             }
             let window = self.tiling.window(tile);
+            let mut differs = false;
             for y in window.rows.clone() {
                 let row = &mut self.row[window.words.clone()];
                 match self.params.reachability {
@@ -231,15 +232,14 @@ impl Incremental {
                         neighbours_of_row(reached, self.params.neighbours, y, window.words.clone(), row);
                     }
                 }
-                let known = window.row(self.planes.unknown(), y);
-                for ((row, unknown), old) in
-                    row.iter().zip(known).zip(&mut self.frontier.row_mut(y)[window.words.clone()])
-                {
+                let frontier = &mut self.frontier.row_mut(y)[window.words.clone()];
+                for ((row, unknown), frontier) in row.iter().zip(window.row(self.planes.unknown(), y)).zip(frontier) {
                     let new = row & unknown;
-                    self.regroup[tile] |= *old != new;
-                    *old = new;
+                    differs |= *frontier != new;
+                    *frontier = new;
                 }
             }
+            self.regroup[tile] |= differs;
         }
     }
 }

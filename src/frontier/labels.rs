@@ -132,7 +132,12 @@ impl BitWork for ConnectRows<'_> {
             // Every run is its own parent at first; more of them than the row can have.
             let known = of_run.len() as u32;
             if known < first + most_in_row {
-                of_run.extend(known..first + 4 * most_in_row);
+                let more = first + 4 * most_in_row - known;
+                if of_run.capacity() - of_run.len() < more as usize {
+                    // Less greedy than doubling: there may be a run for every other cell.
+                    of_run.reserve_exact((more as usize).max(of_run.len() / 8));
+                }
+                of_run.extend(known..known + more);
             }
             let row = window.row(plane, y);
             let count = for_each_contact(row, above, eight, |run, above_run| {

@@ -5,11 +5,6 @@ use super::tiles::{Tile, Tiling, node_of};
 use super::union_find::{root_of, unite};
 use crate::grid::{BitPlane, Cell, Neighbourhood};
 
-/// The tiles around one that lie before it in the order of rows, and so hold what joins
-/// the two.
-const RIGHT: (isize, isize) = (1, 0);
-const ABOVE: (isize, isize) = (0, 1);
-
 /// The connections of a plane and what of it is reached.
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
@@ -116,19 +111,17 @@ impl Reach {
 
     /// Finds again what joins the tiles that changed to those beside them.
     fn join_tiles(&mut self, plane: &BitPlane) {
-        for tile in 0..self.tiles.len() {
-            if let Some(right) = self.tiling.beside(tile, RIGHT)
-                && (self.dirty[tile] || self.dirty[right])
-            {
-                let (here, there) = pair(&mut self.tiles, tile, right);
-                here.join_right(there, self.neighbourhood);
+        let Self { tiling, tiles, dirty, neighbourhood, .. } = self;
+        for beside in tiling.later_neighbours() {
+            let tile = beside.tile;
+            if let Some(right) = beside.right.filter(|&right| dirty[tile] || dirty[right]) {
+                let (here, there) = pair(tiles, tile, right);
+                here.join_right(there, *neighbourhood);
             }
-            if let Some(above) = self.tiling.beside(tile, ABOVE)
-                && (self.dirty[tile] || self.dirty[above])
-            {
-                let windows = [&self.tiling.window(tile), &self.tiling.window(above)];
-                let (here, there) = pair(&mut self.tiles, tile, above);
-                here.join_above(there, plane, windows, self.neighbourhood);
+            if let Some(above) = beside.above.filter(|&above| dirty[tile] || dirty[above]) {
+                let windows = [&tiling.window(tile), &tiling.window(above)];
+                let (here, there) = pair(tiles, tile, above);
+                here.join_above(there, plane, windows, *neighbourhood);
             }
         }
     }
@@ -145,22 +138,26 @@ impl Reach {
         }
         parents.clear();
         parents.extend(0..count);
-        for (index, tile) in tiles.iter().enumerate() {
+        for beside in tiling.later_neighbours() {
+            let tile = &tiles[beside.tile];
             let mut join = |other: usize, [a, b]: [u16; 2]| {
-                unite(parents, first_node[index] + u32::from(a), first_node[other] + u32::from(b));
+                unite(parents, first_node[beside.tile] + u32::from(a), first_node[other] + u32::from(b));
             };
-            if let Some(right) = tiling.beside(index, RIGHT) {
+            if let Some(right) = beside.right {
                 tile.joined_right.iter().for_each(|&nodes| join(right, nodes));
             }
-            if let Some(above) = tiling.beside(index, ABOVE) {
+            if let Some(above) = beside.above {
                 tile.joined_above.iter().for_each(|&nodes| join(above, nodes));
             }
             if self.neighbourhood == Neighbourhood::Eight {
-                if let Some(corner) = tiling.beside(index, (1, 1)) {
-                    tile.joined_at_right_corner(&tiles[corner]).into_iter().for_each(|nodes| join(corner, nodes));
-                }
-                if let Some(corner) = tiling.beside(index, (-1, 1)) {
-                    tile.joined_at_left_corner(&tiles[corner]).into_iter().for_each(|nodes| join(corner, nodes));
+                for (corner, joined) in [
+                    (beside.above_right, Tile::joined_at_right_corner as fn(&Tile, &Tile) -> _),
+                    (beside.above_left, Tile::joined_at_left_corner),
+                ] {
+                    if let Some((corner, nodes)) = corner.and_then(|c| joined(tile, &tiles[c]).map(|nodes| (c, nodes)))
+                    {
+                        join(corner, nodes);
+                    }
                 }
             }
         }

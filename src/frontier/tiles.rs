@@ -52,12 +52,44 @@ impl Tiling {
         }
     }
 
+    /// All tiles in order, each with those beside it that come later.
+    pub fn later_neighbours(self) -> impl Iterator<Item = LaterNeighbours> {
+        let index = move |row: usize, column: usize| row * self.columns + column;
+        (0..self.rows).flat_map(move |row| {
+            (0..self.columns).map(move |column| {
+                let (has_right, has_above) = (column + 1 < self.columns, row + 1 < self.rows);
+                LaterNeighbours {
+                    tile: index(row, column),
+                    right: has_right.then(|| index(row, column + 1)),
+                    above: has_above.then(|| index(row + 1, column)),
+                    above_left: (has_above && column > 0).then(|| index(row + 1, column - 1)),
+                    above_right: (has_above && has_right).then(|| index(row + 1, column + 1)),
+                }
+            })
+        })
+    }
+
     /// The tile a number of columns and rows on, if there is one.
     pub fn beside(&self, tile: usize, (columns, rows): (isize, isize)) -> Option<usize> {
         let column = (tile % self.columns).checked_add_signed(columns).filter(|&c| c < self.columns)?;
         let row = (tile / self.columns).checked_add_signed(rows).filter(|&r| r < self.rows)?;
         Some(row * self.columns + column)
     }
+}
+
+/// A tile and those beside it that come later in the order of rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LaterNeighbours {
+    /// The tile itself.
+    pub tile: usize,
+    /// The one after it.
+    pub right: Option<usize>,
+    /// The one above it.
+    pub above: Option<usize>,
+    /// The one at its corner above to the left.
+    pub above_left: Option<usize>,
+    /// The one at its corner above to the right.
+    pub above_right: Option<usize>,
 }
 
 /// The rim of a tile: which of its cells belong to which node.
