@@ -11,32 +11,27 @@
 //! also where nothing is known. Nothing but the result is allocated while the size of
 //! the map stays the same and its runs do not become more.
 
-use super::flood::Flood;
-use super::runs::Runs;
-use super::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
+use super::clusters::{Clusters, FrontierCells};
+use super::labels::Labels;
+use super::pocket::Pocket;
+use super::shifts::neighbours_of_row;
+use super::window::Window;
+use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{BitPlane, BitPlanes, Cell, Neighbourhood};
-
-/// A fill may take one run for so many words of a plane, about as long as a copy of
-/// the plane takes.
-const WORDS_PER_FILLED_RUN: usize = 32;
-/// A fill may take this many runs in any case.
-const MIN_FILLED_RUNS: usize = 64;
-/// The place in the result of a component that is not in it.
-const DROPPED: usize = usize::MAX;
 
 /// The detector, with the buffers it keeps between maps.
 #[derive(Clone, Debug)]
 pub struct Bitplane {
     params: DetectorParams,
     planes: BitPlanes,
-    /// The cells that the search could walk on, then those that it does.
+    /// The cells that the search walks on.
     entered: BitPlane,
-    frontier: BitPlane,
-    runs: Runs,
-    flood: Flood,
-    row: RowBuffers,
-    /// Of each component of the frontier, by its first run: the number of its cells.
-    component_cells: Vec<usize>,
+    pocket: Pocket,
+    labels: Labels,
+    clusters: Clusters,
+    found: FrontierCells,
+    /// A row of neighbours.
+    row: Vec<u64>,
 }
 
 impl Bitplane {
@@ -47,77 +42,79 @@ impl Bitplane {
             params,
             planes: BitPlanes::default(),
             entered: BitPlane::default(),
-            frontier: BitPlane::default(),
-            runs: Runs::default(),
-            flood: Flood::default(),
-            row: RowBuffers::default(),
-            component_cells: Vec::new(),
+            pocket: Pocket::default(),
+            labels: Labels::default(),
+            clusters: Clusters::default(),
+            found: FrontierCells::default(),
+            row: Vec::new(),
         }
+    }
+
+    /// The frontiers as lists of cells, without a copy of each. What comes out is the
+    /// same as from [`FrontierDetector::detect`], and nothing is allocated once the
+    /// buffers have grown to what such maps need.
+    ///
+    /// # Errors
+    /// [`DetectError`] when the question has no answer on this map.
+    pub fn detect_cells(&mut self, input: &DetectionInput<'_>) -> Result<&FrontierCells, DetectError> {
+        let Self { params, planes, entered, pocket, found, .. } = self;
+        let seed = params.seed(input.grid, &input.robot_in_map)?;
+        if pocket.search(input.grid, params, seed, planes, entered, found).is_none() {
+            planes.pack(input.grid, &params.thresholds);
+            match params.reachability {
+                Reachability::WallsBlock => self.mark_where_walls_block(seed),
+                Reachability::Textbook => self.mark_as_the_textbook(seed),
+            }
+            let min_cells = self.params.min_cells(input.grid.info());
+            self.clusters.collect(self.planes.unknown(), self.params.neighbours, min_cells, &mut self.found);
+        }
+        Ok(&self.found)
+    }
+
+    /// What the detector's own state takes in memory, bytes; the frontiers last found
+    /// are not part of it.
+    #[must_use]
+    pub fn memory_bytes(&self) -> usize {
+        self.planes.memory_bytes()
+            + self.entered.memory_bytes()
+            + self.pocket.memory_bytes()
+            + self.labels.memory_bytes()
+            + self.clusters.memory_bytes()
+            + self.row.capacity() * size_of::<u64>()
     }
 
     /// Frontier cells where walls block: unknown beside free space connected to the seed.
+    /// They take the place of the unknown cells.
     fn mark_where_walls_block(&mut self, seed: Cell) {
-        self.entered.copy_from(self.planes.free());
-        self.keep_connected(seed, Neighbourhood::Four);
-        self.row.neighbours_of(&self.entered, self.params.neighbours, &mut self.frontier);
-        self.frontier.intersect(self.planes.unknown());
+        let free = self.planes.free();
+        let all = Window::of(free);
+        self.labels.label(free, &all, Neighbourhood::Four);
+        let kept = self.labels.component_at(free, &all, seed);
+        self.entered.resize(free.width(), free.height());
+        self.labels.select(free, &all, |c| Some(c) == kept, |y, i, word| self.entered.row_mut(y)[i] = word);
+        let unknown = self.planes.unknown_mut();
+        self.row.resize(unknown.row_words(), 0);
+        for y in 0..unknown.height() {
+            neighbours_of_row(&self.entered, self.params.neighbours, y, 0..unknown.row_words(), &mut self.row);
+            intersect(unknown.row_mut(y), &self.row);
+        }
     }
 
     /// Frontier cells by the paper's line 27: the search walks over all that has a free
-    /// neighbour, and over the seed.
+    /// neighbour, and over the seed. They take the place of the unknown cells.
     fn mark_as_the_textbook(&mut self, seed: Cell) {
-        self.row.neighbours_of(self.planes.free(), self.params.neighbours, &mut self.entered);
+        let free = self.planes.free();
+        self.entered.resize(free.width(), free.height());
+        for y in 0..free.height() {
+            let row = self.entered.row_mut(y);
+            neighbours_of_row(free, self.params.neighbours, y, 0..free.row_words(), row);
+        }
         self.entered.insert(seed);
-        self.keep_connected(seed, self.params.neighbours);
-        self.frontier.copy_from(&self.entered);
-        self.frontier.intersect(self.planes.unknown());
-    }
-
-    /// Clears among the entered cells what is not connected to the seed: by a fill as
-    /// long as that costs little beside reading the planes, else by labelling all runs.
-    fn keep_connected(&mut self, seed: Cell, neighbourhood: Neighbourhood) {
-        let max_runs = self.entered.words().len() / WORDS_PER_FILLED_RUN + MIN_FILLED_RUNS;
-        let unconnected = &mut self.frontier;
-        unconnected.copy_from(&self.entered);
-        if self.flood.clear_connected(unconnected, seed, neighbourhood, max_runs).is_some() {
-            self.entered.subtract(unconnected);
-        } else {
-            self.runs.label(&self.entered, neighbourhood);
-            self.runs.clear_others(&mut self.entered, self.runs.component_at(seed));
-        }
-    }
-
-    /// The components of the frontier that are large enough. Runs come in row-major
-    /// order and a component is named by its first, so nothing needs sorting.
-    fn collect(&mut self, min_cells: usize) -> Vec<Frontier> {
-        self.runs.label(&self.frontier, self.params.neighbours);
-        self.component_cells.clear();
-        self.component_cells.resize(self.runs.len(), 0);
-        let component_cells = &mut self.component_cells;
-        self.runs.iter().for_each(|(_, run, component)| component_cells[component as usize] += run.len());
-        let mut frontiers: Vec<Frontier> = Vec::new();
-        for (index, (y, run, component)) in self.runs.iter().enumerate() {
-            let component = component as usize;
-            // The slot of a component's size holds its place in the result once its
-            // first run has been met.
-            if component == index {
-                let count = self.component_cells[index];
-                self.component_cells[index] = if count < min_cells { DROPPED } else { frontiers.len() };
-                if count >= min_cells {
-                    let id = frontiers.len() as u64;
-                    frontiers.push(Frontier {
-                        id,
-                        cells: Vec::with_capacity(count),
-                        side: CellSide::Unknown,
-                        circle: None,
-                    });
-                }
-            }
-            if let Some(frontier) = frontiers.get_mut(self.component_cells[component]) {
-                frontier.cells.extend((run.start..run.end).map(|x| Cell::new(x as i32, y as i32)));
-            }
-        }
-        frontiers
+        let all = Window::of(&self.entered);
+        self.labels.label(&self.entered, &all, self.params.neighbours);
+        let kept = self.labels.component_at(&self.entered, &all, seed);
+        let frontier = self.planes.unknown_mut();
+        self.labels.select(&self.entered, &all, |c| Some(c) == kept, |y, i, word| frontier.row_mut(y)[i] &= word);
     }
 }
 
@@ -127,50 +124,14 @@ impl FrontierDetector for Bitplane {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        let seed = self.params.seed(input.grid, &input.robot_in_map)?;
-        self.planes.pack(input.grid, &self.params.thresholds);
-        match self.params.reachability {
-            Reachability::WallsBlock => self.mark_where_walls_block(seed),
-            Reachability::Textbook => self.mark_as_the_textbook(seed),
-        }
-        Ok(self.collect(self.params.min_cells(input.grid.info())))
+        Ok(self.detect_cells(input)?.to_frontiers())
     }
 }
 
-/// Rows of words between which neighbours are computed.
-#[derive(Clone, Debug, Default)]
-struct RowBuffers {
-    /// What stands above the first row and below the last.
-    empty: Vec<u64>,
-    /// Cells whose left and right neighbours count, with an empty word at either end.
-    centre: Vec<u64>,
-}
-
-impl RowBuffers {
-    /// The cells that have a neighbour in `source`, whatever they are themselves.
-    fn neighbours_of(&mut self, source: &BitPlane, neighbourhood: Neighbourhood, target: &mut BitPlane) {
-        target.resize(source.width(), source.height());
-        self.empty.resize(source.row_words(), 0);
-        self.centre.clear();
-        self.centre.resize(source.row_words() + 2, 0);
-        let corners = if neighbourhood == Neighbourhood::Eight { u64::MAX } else { 0 };
-        for y in 0..source.height() {
-            let below = if y > 0 { source.row(y - 1) } else { &self.empty };
-            let above = if y + 1 < source.height() { source.row(y + 1) } else { &self.empty };
-            let vertical = below.iter().zip(above).map(|(below, above)| below | above);
-            let target_row = target.row_mut(y);
-            let centre = self.centre[1..].iter_mut().zip(source.row(y)).zip(target_row.iter_mut());
-            for (vertical, ((centre, own), target)) in vertical.zip(centre) {
-                *centre = own | (vertical & corners);
-                *target = vertical;
-            }
-            for (target, words) in target_row.iter_mut().zip(self.centre.windows(3)) {
-                *target |= words[1] << 1 | words[0] >> 63 | words[1] >> 1 | words[2] << 63;
-            }
-            if let Some(last) = target_row.last_mut() {
-                *last &= source.last_word_mask();
-            }
-        }
+/// Keeps the bits of `row` that are set in `other` too.
+pub(super) fn intersect(row: &mut [u64], other: &[u64]) {
+    for (word, other) in row.iter_mut().zip(other) {
+        *word &= other;
     }
 }
 

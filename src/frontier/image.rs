@@ -85,7 +85,7 @@ impl FrontierDetector for ImageDetector {
         let territory = Territory::of(input, &self.params)?;
         let half = self.params.image.half_cells(info);
         // Eroding S is dilating its complement, the obstacles.
-        let obstacles = dilated(territory.planes.occupied(), half);
+        let obstacles = dilated(&territory.planes.occupied(), half);
         let mut open = territory.open;
         let mut unknown = territory.planes.unknown().clone();
         open.subtract(&obstacles);

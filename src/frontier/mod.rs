@@ -3,23 +3,36 @@
 mod bitplane;
 mod bits;
 mod canny;
+mod clusters;
+mod contacts;
 mod dbscan;
 mod fast;
-mod flood;
+mod group;
 mod image;
+mod incremental;
+mod labels;
 mod params;
 mod plane;
+mod pocket;
+mod reach;
+mod regroup;
 mod representative;
 mod runs;
+mod shifts;
+mod tiles;
 mod tracker;
+mod union_find;
 mod wavefront;
+mod window;
 mod yamauchi;
 
 pub use bitplane::Bitplane;
 pub use canny::{Canny, CannyParams};
+pub use clusters::FrontierCells;
 pub use dbscan::{Dbscan, DbscanParams};
 pub use fast::{Fast, FastParams};
 pub use image::{ImageDetector, ImageParams};
+pub use incremental::Incremental;
 pub use params::{DetectorParams, DetectorParamsError, Reachability};
 pub use representative::Representative;
 pub use tracker::{FrontierEvent, FrontierId, FrontierTracker, Tracked};
@@ -158,6 +171,8 @@ pub enum DetectorKind {
     /// The same frontiers from bit planes, at the speed of memory.
     #[default]
     Bitplane,
+    /// The same frontiers again, repaired where the map changed.
+    Incremental,
     /// A scan of the whole grid (Yamauchi 1997).
     Yamauchi,
     /// Image processing with enclosing circles (Liang 2020).
@@ -172,8 +187,16 @@ pub enum DetectorKind {
 
 impl DetectorKind {
     /// All detectors, for tables of tests, help and benchmarks.
-    pub const ALL: &'static [Self] =
-        &[Self::Wavefront, Self::Bitplane, Self::Yamauchi, Self::Image, Self::Dbscan, Self::Canny, Self::Fast];
+    pub const ALL: &'static [Self] = &[
+        Self::Wavefront,
+        Self::Bitplane,
+        Self::Incremental,
+        Self::Yamauchi,
+        Self::Image,
+        Self::Dbscan,
+        Self::Canny,
+        Self::Fast,
+    ];
 
     /// Its name in configuration files.
     #[must_use]
@@ -186,6 +209,7 @@ impl DetectorKind {
             Self::Canny => "canny",
             Self::Fast => "fast",
             Self::Bitplane => "bitplane",
+            Self::Incremental => "incremental",
         }
     }
 
@@ -200,6 +224,7 @@ impl DetectorKind {
             Self::Canny => Box::new(Canny::new(*params)),
             Self::Fast => Box::new(Fast::new(*params)),
             Self::Bitplane => Box::new(Bitplane::new(*params)),
+            Self::Incremental => Box::new(Incremental::new(*params)),
         }
     }
 }

@@ -17,12 +17,7 @@ pub(super) struct Run {
     pub end: u32,
 }
 
-impl Run {
-    /// Number of cells.
-    pub const fn len(self) -> usize {
-        (self.end - self.start) as usize
-    }
-}
+impl Run {}
 
 /// The runs of a plane in row-major order, each with the component it belongs to. The
 /// buffers are kept from one plane to the next.

@@ -15,7 +15,7 @@ fn check(planes: &BitPlanes, grid: &OccupancyGrid, thresholds: &Thresholds) {
     let info = grid.info();
     for cell in (0..info.len()).map(|i| info.cell(i)) {
         let state = grid.state(cell, thresholds);
-        let found = [planes.free(), planes.unknown(), planes.occupied()].map(|plane| plane.contains(cell));
+        let found = [planes.free(), planes.unknown(), &planes.occupied()].map(|plane| plane.contains(cell));
         let expected = [CellState::Free, CellState::Unknown, CellState::Occupied].map(|kind| kind == state);
         assert_eq!(found, expected, "{cell:?} is {:?} in a grid {} wide", grid.get(cell), info.width());
     }
@@ -60,49 +60,4 @@ fn planes_are_reused_without_a_trace_of_the_last_grid() {
     let before = planes.free().words().as_ptr();
     planes.pack(&grid(130, 3, |_| 0), &thresholds);
     assert_eq!(planes.free().words().as_ptr(), before);
-}
-
-#[test]
-fn runs_are_cleared_to_the_cell() {
-    for (start, end) in [(0, 0), (0, 1), (3, 3), (60, 64), (64, 65), (63, 129), (0, 200), (199, 200), (128, 192)] {
-        let mut plane = BitPlane::new(200, 3);
-        for x in 0..200 {
-            plane.insert(Cell::new(x, 1));
-        }
-        plane.clear_run(1, start, end);
-        for x in 0..200 {
-            let inside = (start..end).contains(&(x as usize));
-            assert_eq!(plane.contains(Cell::new(x, 1)), !inside, "{start}..{end} at {x}");
-        }
-        assert_eq!(plane.count(), 200 - (end - start));
-    }
-}
-
-#[test]
-fn runs_are_found_to_the_cell() {
-    for (start, end) in [(0, 1), (3, 4), (60, 64), (64, 65), (63, 129), (0, 192), (191, 192), (128, 192), (0, 64)] {
-        let mut plane = BitPlane::new(192, 2);
-        for x in start..end {
-            plane.insert(Cell::new(x as i32, 1));
-        }
-        assert_eq!(plane.run_around(1, start), start..end);
-        assert_eq!(plane.run_around(1, end - 1), start..end);
-        assert_eq!(plane.first_in(1, 0..192), Some(start));
-        assert_eq!(plane.first_in(1, end - 1..192), Some(end - 1));
-        assert_eq!(plane.first_in(1, 0..start), None);
-        assert_eq!(plane.first_in(1, end..192), None);
-        assert_eq!(plane.first_in(0, 0..192), None);
-    }
-}
-
-#[test]
-fn outside_nothing_is_set() {
-    let mut plane = BitPlane::new(65, 2);
-    for cell in [Cell::new(-1, 0), Cell::new(65, 0), Cell::new(0, 2), Cell::new(0, -1)] {
-        plane.insert(cell);
-        assert!(!plane.contains(cell));
-    }
-    assert_eq!(plane.count(), 0);
-    assert_eq!((plane.row_words(), plane.last_word_mask()), (2, 1));
-    assert_eq!(BitPlane::new(128, 1).last_word_mask(), u64::MAX);
 }

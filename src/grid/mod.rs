@@ -4,7 +4,9 @@
 //! index `y * width + x`; images, whose first row is the highest y, are turned over
 //! where they are read or written and nowhere else.
 
+mod bitplane;
 mod bitplanes;
+mod classify;
 mod costmap;
 mod distance;
 mod info;
@@ -14,13 +16,19 @@ mod pack;
 mod patch;
 mod published;
 mod raytrace;
+mod rect;
+#[cfg(target_arch = "x86_64")]
+mod simd;
 mod state;
 
-pub use bitplanes::{BitPlane, BitPlanes, WORD_CELLS};
+pub use bitplane::{BitPlane, BitWork, WORD_CELLS, with_bit_counts};
+pub use bitplanes::BitPlanes;
+pub use classify::Classifier;
 pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, UNKNOWN_COST};
 pub use distance::squared_distance_cells;
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
 pub use occupancy::{Census, GridError, OccupancyGrid};
 pub use patch::{GridPatch, GridPatchError};
 pub use raytrace::{Traversal, traverse};
+pub use rect::CellRect;
 pub use state::{CellState, ThresholdError, Thresholds};

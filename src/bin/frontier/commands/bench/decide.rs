@@ -1,9 +1,9 @@
-//! `frontier bench`: how long a decision takes on a map.
+//! `frontier bench decide`: how long a decision takes on a map.
 
+use super::timing::Times;
 use crate::exit::Outcome;
 use crate::{inputs, output, values};
 use anyhow::{Context, bail};
-use clap::Subcommand;
 use comfy_table::Table;
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::explore::Explorer;
@@ -16,16 +16,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// What to time.
-#[derive(Debug, Subcommand)]
-pub enum Command {
-    /// Whole decisions: costmap, detection, ways, goal choice, plan.
-    Decide(DecideArgs),
-}
-
 /// Arguments of `frontier bench decide`.
 #[derive(Debug, clap::Args)]
-pub struct DecideArgs {
+pub struct Args {
     /// The map's YAML file.
     map: PathBuf,
     /// Where the robot is: X,Y or X,Y,YAW in metres and radians of the map frame.
@@ -50,19 +43,12 @@ pub struct DecideArgs {
 struct Timing {
     preset: String,
     frontiers: usize,
-    median_ms: f64,
-    min_ms: f64,
-    p90_ms: f64,
+    #[serde(flatten)]
+    times: Times,
 }
 
-/// Runs `frontier bench`.
-pub fn run(command: &Command) -> anyhow::Result<Outcome> {
-    match command {
-        Command::Decide(args) => decide(args),
-    }
-}
-
-fn decide(args: &DecideArgs) -> anyhow::Result<Outcome> {
+/// Runs `frontier bench decide`.
+pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let grid = Arc::new(load_map(&args.map)?.grid);
     let robot = inputs::robot(&args.robot)?;
     let names: Vec<String> = match args.config.as_str() {
@@ -83,7 +69,13 @@ fn decide(args: &DecideArgs) -> anyhow::Result<Outcome> {
     table.set_header(["preset", "frontiers", "median (ms)", "min (ms)", "90 % (ms)"]);
     for t in &timings {
         let ms = |value: f64| format!("{value:.1}");
-        table.add_row([t.preset.clone(), t.frontiers.to_string(), ms(t.median_ms), ms(t.min_ms), ms(t.p90_ms)]);
+        table.add_row([
+            t.preset.clone(),
+            t.frontiers.to_string(),
+            ms(t.times.median_ms),
+            ms(t.times.min_ms),
+            ms(t.times.p90_ms),
+        ]);
     }
     output::line(format_args!("{table}"))?;
     Ok(Outcome::Done)
@@ -92,7 +84,7 @@ fn decide(args: &DecideArgs) -> anyhow::Result<Outcome> {
 /// Times the first decision of an explorer, and the same again with a map of its own
 /// each time: nothing is kept from run to run but what the explorer itself keeps.
 fn time_decisions(
-    args: &DecideArgs,
+    args: &Args,
     preset: &Preset,
     robot: &RobotConfig,
     grid: &Arc<OccupancyGrid>,
@@ -123,7 +115,5 @@ fn time_decisions(
             times_ms.push(took_ms);
         }
     }
-    times_ms.sort_by(f64::total_cmp);
-    let at = |share: f64| times_ms.get(((times_ms.len() - 1) as f64 * share) as usize).copied().unwrap_or_default();
-    Ok(Timing { preset: preset.preset.clone(), frontiers, median_ms: at(0.5), min_ms: at(0.0), p90_ms: at(0.9) })
+    Ok(Timing { preset: preset.preset.clone(), frontiers, times: Times::of(times_ms) })
 }

@@ -1,0 +1,222 @@
+//! What a detection costs against the size of the map: `cargo bench --bench detect`.
+//!
+//! Each way of detecting is timed beside the textbook's detector and beside one pass that
+//! sums the map's bytes, in turns, so that what disturbs one disturbs all; the fastest
+//! round of each counts. Before that, what they find must be equal.
+//!
+//! ```text
+//! cargo bench --bench detect -- 1000 2000 office        # these sizes, this scene
+//! cargo bench --bench detect -- --svg docs/performance.svg --markdown
+//! FRONTIER_BENCH_MAP=willow.yaml FRONTIER_BENCH_AT=25,20 cargo bench --bench detect
+//!                                                       # that floor, tiled, too
+//! ```
+
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
+
+#[path = "support/plot.rs"]
+mod plot;
+#[path = "support/scenes.rs"]
+mod scenes;
+#[path = "support/table.rs"]
+mod table;
+
+use frontier_explorer::frontier::{Bitplane, DetectionInput, DetectorParams, FrontierDetector, Incremental, Wavefront};
+use frontier_explorer::geometry::Point;
+use frontier_explorer::grid::{Cell, CellRect, OccupancyGrid};
+use frontier_explorer::io::load_map;
+use scenes::Scene;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+const SIZES: [u32; 5] = [500, 1000, 2000, 4000, 8000];
+
+/// The edge of the patch that changes, cells.
+const PATCH: usize = 200;
+
+/// The times of one scene, milliseconds.
+pub struct Row {
+    /// What the map shows.
+    pub scene: &'static str,
+    /// Its edge, cells.
+    pub size: u32,
+    /// How many were found.
+    pub frontiers: usize,
+    /// Of one pass that sums the bytes.
+    pub byte_sum_ms: f64,
+    /// Of the textbook's detector.
+    pub textbook_ms: f64,
+    /// Of the detector on bit planes, from scratch.
+    pub bitplane_ms: f64,
+    /// Of a patch changed, told which.
+    pub patch_ms: f64,
+    /// Of a patch changed, not told which.
+    pub resent_ms: f64,
+    /// The state of the detector from scratch and of the one that keeps the map, bytes a cell.
+    pub memory: [f64; 2],
+}
+
+/// The arguments after `--`.
+#[derive(Default)]
+struct Options {
+    sizes: Vec<u32>,
+    scenes: Vec<String>,
+    svg: Option<PathBuf>,
+    markdown: bool,
+}
+
+fn options() -> Options {
+    let mut options = Options::default();
+    let mut args = std::env::args().skip(1);
+    while let Some(arg) = args.next() {
+        match arg.as_str() {
+            "--bench" => {}
+            "--svg" => options.svg = args.next().map(PathBuf::from),
+            "--markdown" => options.markdown = true,
+            word => match word.parse() {
+                Ok(size) => options.sizes.push(size),
+                Err(_) => options.scenes.push(word.to_owned()),
+            },
+        }
+    }
+    if options.sizes.is_empty() {
+        options.sizes = SIZES.to_vec();
+    }
+    options
+}
+
+fn main() {
+    let options = options();
+    let office = load_map(&Path::new(env!("CARGO_MANIFEST_DIR")).join("maps/office.yaml")).unwrap().grid;
+    let other = std::env::var_os("FRONTIER_BENCH_MAP").map(|path| {
+        let at = std::env::var("FRONTIER_BENCH_AT").unwrap();
+        let (x, y) = at.split_once(',').unwrap();
+        (load_map(Path::new(&path)).unwrap().grid, Point::new(x.parse().unwrap(), y.parse().unwrap()))
+    });
+    let mut rows = Vec::new();
+    for &size in &options.sizes {
+        for name in ["office", "other", "noise", "shut-in", "empty"] {
+            if !options.scenes.is_empty() && !options.scenes.iter().any(|wanted| wanted == name) {
+                continue;
+            }
+            let scene = match name {
+                "office" => scenes::tiled(name, &office, size),
+                "other" => match &other {
+                    Some((floor, at)) => scenes::standing(scenes::tiled(name, floor, size), floor, *at),
+                    None => continue,
+                },
+                "noise" => scenes::salt_and_pepper(name, size, 70),
+                "shut-in" => scenes::salt_and_pepper(name, size, 33),
+                _ => scenes::empty(size),
+            };
+            let row = measure(&scene, size);
+            if rows.is_empty() {
+                println!("{}", table::header());
+            }
+            println!("{}", table::line(&row));
+            rows.push(row);
+        }
+    }
+    if options.markdown {
+        println!("\n{}", table::markdown(&rows));
+    }
+    if let Some(path) = options.svg {
+        plot::draw(&path, &rows).unwrap();
+        println!("drawn to {}", path.display());
+    }
+}
+
+/// Something that is timed: the least of its times, and what all of them took.
+struct Contender<'a> {
+    work: Box<dyn FnMut() + 'a>,
+    least_ms: f64,
+    spent_ms: f64,
+}
+
+impl<'a> Contender<'a> {
+    fn new(work: impl FnMut() + 'a) -> Self {
+        Self { work: Box::new(work), least_ms: f64::INFINITY, spent_ms: 0.0 }
+    }
+}
+
+/// Rounds at most, and how long one contender may take in all.
+const ROUNDS: usize = 41;
+const BUDGET_MS: f64 = 2000.0;
+
+fn measure(scene: &Scene, size: u32) -> Row {
+    let params = DetectorParams::default();
+    let changed = with_patch(&scene.grid);
+    let patch = CellRect { x: changed.1.x, y: changed.1.y, width: PATCH, height: PATCH };
+    let inputs = [&scene.grid, &changed.0].map(|grid| DetectionInput::new(grid, scene.robot));
+    let mut bitplane = Bitplane::new(params);
+    let mut textbook = Wavefront::new(params);
+    let frontiers = bitplane.detect(&inputs[0]).unwrap();
+    let mut kept = [Incremental::new(params), Incremental::new(params)];
+    for kept in &mut kept {
+        assert_eq!(kept.update(&inputs[0], None).unwrap().len(), frontiers.len());
+        for (input, told) in
+            [(&inputs[1], None), (&inputs[0], Some(patch)), (&inputs[1], Some(patch)), (&inputs[0], None)]
+        {
+            let expected = bitplane.detect(input).unwrap();
+            assert!(kept.update(input, told).unwrap().to_frontiers() == expected, "{} {size}", scene.name);
+        }
+    }
+    if size <= 2000 {
+        assert!(textbook.detect(&inputs[0]).unwrap() == frontiers, "{} {size}", scene.name);
+    }
+    bitplane.detect_cells(&inputs[0]).unwrap();
+    let cells = scene.grid.data().len() as f64;
+    let memory = [bitplane.memory_bytes() as f64 / cells, kept[0].memory_bytes() as f64 / cells];
+    let [by_patch, by_grid] = &mut kept;
+    let (mut turn, mut other_turn) = (0, 0);
+    let mut contenders = [
+        Contender::new(|| {
+            black_box(scene.grid.data().iter().map(|&value| i64::from(value)).sum::<i64>());
+        }),
+        Contender::new(|| {
+            black_box(textbook.detect(&inputs[0]).unwrap());
+        }),
+        Contender::new(|| {
+            black_box(bitplane.detect_cells(&inputs[0]).unwrap());
+        }),
+        Contender::new(|| {
+            turn = 1 - turn;
+            black_box(by_patch.update(&inputs[turn], Some(patch)).unwrap());
+        }),
+        Contender::new(|| {
+            other_turn = 1 - other_turn;
+            black_box(by_grid.update(&inputs[other_turn], None).unwrap());
+        }),
+    ];
+    for _ in 0..ROUNDS {
+        for contender in contenders.iter_mut().filter(|c| c.spent_ms < BUDGET_MS) {
+            let began = Instant::now();
+            (contender.work)();
+            let took_ms = began.elapsed().as_secs_f64() * 1e3;
+            contender.spent_ms += took_ms;
+            contender.least_ms = contender.least_ms.min(took_ms);
+        }
+    }
+    let [byte_sum_ms, textbook_ms, bitplane_ms, patch_ms, resent_ms] = contenders.map(|c| c.least_ms);
+    let (scene, frontiers) = (scene.name, frontiers.len());
+    Row { scene, size, frontiers, byte_sum_ms, textbook_ms, bitplane_ms, patch_ms, resent_ms, memory }
+}
+
+/// The map with another patch near the robot: part unknown, part specks.
+fn with_patch(grid: &OccupancyGrid) -> (OccupancyGrid, CellRect) {
+    let mut changed = grid.clone();
+    let middle = (grid.info().width() / 2, grid.info().height() / 2);
+    let (x, y) = (middle.0 + 30, middle.1 - PATCH / 2);
+    let rect = CellRect { x, y, width: PATCH, height: PATCH };
+    for row in y..y + PATCH {
+        for column in x..x + PATCH {
+            let cell = Cell::new(column as i32, row as i32);
+            if (column / 20 + row / 20).is_multiple_of(3) {
+                changed.set(cell, OccupancyGrid::UNKNOWN);
+            } else if (column * 31 + row * 17).is_multiple_of(53) {
+                changed.set(cell, OccupancyGrid::FREE);
+            }
+        }
+    }
+    (changed, rect)
+}

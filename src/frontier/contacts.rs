@@ -1,0 +1,120 @@
+//! Where the runs of one row touch those of the row above it, by expressions of bits.
+//!
+//! A run is known by how many of its row begin before it, which is a count of bits. Two
+//! runs that overlap have one first cell in common; two that meet at a corner alone do so
+//! at the beginning of one or at its end. So each pair of runs that touch is met exactly
+//! once, and there is a branch for each such pair and no other.
+
+/// Finds where runs begin, word by word along a row.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Starts {
+    /// The last cell of the word before.
+    last: u64,
+}
+
+impl Starts {
+    /// The cells at which a run begins.
+    #[inline(always)]
+    pub fn of(&mut self, word: u64) -> u64 {
+        let starts = word & !(word << 1 | self.last);
+        self.last = word >> 63;
+        starts
+    }
+}
+
+/// Number of runs of a row.
+#[inline(always)]
+pub(super) fn count_runs(row: &[u64]) -> u32 {
+    let mut starts = Starts::default();
+    row.iter().map(|&word| starts.of(word).count_ones()).sum()
+}
+
+/// Calls `visit` with the places of two runs in their rows, that of `row` first, for each
+/// pair that touches. With `eight`, corners touch. Rows are as long as each other, or
+/// `above` is empty. The number of runs of `row`.
+#[inline(always)]
+pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, mut visit: impl FnMut(u32, u32)) -> u32 {
+    if above.is_empty() {
+        return count_runs(row);
+    }
+    // The last cells of the words before.
+    let (mut last, mut over_last) = (0, 0);
+    // How many runs began before this word.
+    let (mut before, mut above_before) = (0, 0);
+    for (&word, &over) in row.iter().zip(above) {
+        // Most words of most maps.
+        if word | over | last == 0 {
+            over_last = 0;
+            continue;
+        }
+        let begun = word & !(word << 1 | last);
+        let above_begun = over & !(over << 1 | over_last);
+        let both = word & over;
+        // Where two runs overlap.
+        let mut contacts = both & !(both << 1 | last & over_last);
+        // Where one ends left of the beginning of another, which is the next above: within
+        // the word, and from the word before to this one.
+        let (mut next_contacts, mut next_contact_at_seam) = (0, 0);
+        if eight {
+            // Where one begins right of the end of another, the last begun above.
+            contacts |= begun & (over << 1 | over_last) & !over;
+            next_contacts = word & !(word >> 1) & (over >> 1) & !over;
+            next_contact_at_seam = last & !word & over & !over_last & 1;
+        }
+        for (mut contacts, mask, next) in
+            [(contacts, u64::MAX, 0), (next_contacts, u64::MAX, 1), (next_contact_at_seam, 0, 1)]
+        {
+            while contacts != 0 {
+                let so_far = (contacts ^ (contacts - 1)) & mask;
+                let run = before + (begun & so_far).count_ones() - 1;
+                visit(run, above_before + (above_begun & so_far).count_ones() + next - 1);
+                contacts &= contacts - 1;
+            }
+        }
+        before += begun.count_ones();
+        above_before += above_begun.count_ones();
+        (last, over_last) = (word >> 63, over >> 63);
+    }
+    before
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The columns of each run.
+    fn runs(row: &[u64]) -> Vec<(usize, usize)> {
+        let set = |x: usize| row.get(x / 64).is_some_and(|word| word >> (x % 64) & 1 == 1);
+        let starts = (0..row.len() * 64).filter(|&x| set(x) && (x == 0 || !set(x - 1)));
+        starts.map(|start| (start, (start..).find(|&x| !set(x)).unwrap())).collect()
+    }
+
+    fn row() -> impl Strategy<Value = Vec<u64>> {
+        proptest::collection::vec(
+            prop_oneof![Just(0), Just(u64::MAX), any::<u64>(), any::<u64>().prop_map(|w| w | w << 1 | w >> 1)],
+            3,
+        )
+    }
+
+    proptest! {
+        #[test]
+        fn each_pair_that_touches_is_met_once(row in row(), above in row(), eight: bool) {
+            let mut met = Vec::new();
+            let count = for_each_contact(&row, &above, eight, |run, over| met.push((run as usize, over as usize)));
+            met.sort_unstable();
+            let (here, over) = (runs(&row), runs(&above));
+            prop_assert_eq!((count as usize, count_runs(&row) as usize), (here.len(), here.len()));
+            let margin = usize::from(eight);
+            let mut expected = Vec::new();
+            for (i, a) in here.iter().enumerate() {
+                for (j, b) in over.iter().enumerate() {
+                    if a.0 < b.1 + margin && b.0 < a.1 + margin {
+                        expected.push((i, j));
+                    }
+                }
+            }
+            prop_assert_eq!(met, expected);
+        }
+    }
+}

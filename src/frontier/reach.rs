@@ -1,0 +1,233 @@
+//! What is connected to a seed in a plane that changes here and there.
+
+use super::labels::Labels;
+use super::tiles::{Tile, Tiling, node_of};
+use super::union_find::{root_of, unite};
+use crate::grid::{BitPlane, Cell, Neighbourhood};
+
+/// The connections of a plane and what of it is reached.
+#[derive(Clone, Debug)]
+pub(super) struct Reach {
+    neighbourhood: Neighbourhood,
+    tiling: Tiling,
+    tiles: Vec<Tile>,
+    /// Tiles whose cells changed since they were labelled.
+    dirty: Vec<bool>,
+    /// Of each tile whether its reached cells include a component within its rim.
+    has_inner: Vec<bool>,
+    /// The index of each tile's first node among all.
+    first_node: Vec<u32>,
+    parents: Vec<u32>,
+    /// Of all nodes, whether they are reached: now, and when last written.
+    reached: Vec<bool>,
+    written: Vec<bool>,
+    /// The index of each tile's first node in `written`.
+    first_written: Vec<u32>,
+    plane: BitPlane,
+    labels: Labels,
+    nodes: Vec<u16>,
+    /// Components within a rim that hold a seed.
+    inner: Vec<(usize, u32)>,
+}
+
+impl Reach {
+    /// Of no plane yet.
+    pub fn new(neighbourhood: Neighbourhood) -> Self {
+        Self {
+            neighbourhood,
+            tiling: Tiling::default(),
+            tiles: Vec::new(),
+            dirty: Vec::new(),
+            has_inner: Vec::new(),
+            first_node: Vec::new(),
+            parents: Vec::new(),
+            reached: Vec::new(),
+            written: Vec::new(),
+            first_written: Vec::new(),
+            plane: BitPlane::default(),
+            labels: Labels::default(),
+            nodes: Vec::new(),
+            inner: Vec::new(),
+        }
+    }
+
+    /// The cells that are reached.
+    pub const fn plane(&self) -> &BitPlane {
+        &self.plane
+    }
+
+    /// Starts over with planes of this size.
+    pub fn reset(&mut self, width: usize, height: usize) {
+        self.plane.resize(width, height);
+        self.tiling = Tiling::new(self.plane.row_words(), height);
+        let count = self.tiling.len();
+        self.tiles.resize_with(count, Tile::default);
+        self.dirty.clear();
+        self.dirty.resize(count, true);
+        self.has_inner.clear();
+        self.has_inner.resize(count, false);
+        self.first_written.clear();
+        self.first_written.resize(count + 1, 0);
+        self.written.clear();
+    }
+
+    /// Tells that a word of the plane changed.
+    pub fn touch(&mut self, y: usize, word: usize) {
+        self.dirty[self.tiling.at(y, word)] = true;
+    }
+
+    /// Finds again what is connected to any of the seeds in the plane, which must be as it
+    /// was but for the words touched. Marks the tiles of which other cells are reached
+    /// than before.
+    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut [bool]) {
+        self.label_rims(plane);
+        self.join_tiles(plane);
+        self.connect();
+        self.mark_reached(plane, seeds);
+        for (tile, changed) in changed.iter_mut().enumerate().take(self.tiles.len()) {
+            let inner = self.inner.iter().any(|&(of, _)| of == tile);
+            let nodes = self.first_node[tile] as usize..self.first_node[tile + 1] as usize;
+            let written = self.first_written[tile] as usize..self.first_written[tile + 1] as usize;
+            let same = self.reached[nodes] == self.written[written];
+            if self.dirty[tile] || inner || self.has_inner[tile] || !same {
+                *changed |= self.write(plane, tile);
+            }
+            self.has_inner[tile] = inner;
+        }
+        self.dirty.fill(false);
+        std::mem::swap(&mut self.reached, &mut self.written);
+        std::mem::swap(&mut self.first_node, &mut self.first_written);
+    }
+
+    fn label_rims(&mut self, plane: &BitPlane) {
+        for tile in 0..self.tiles.len() {
+            if self.dirty[tile] {
+                let window = self.tiling.window(tile);
+                self.labels.label(plane, &window, self.neighbourhood);
+                self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
+            }
+        }
+    }
+
+    /// Finds again what joins the tiles that changed to those beside them.
+    fn join_tiles(&mut self, plane: &BitPlane) {
+        let Self { tiling, tiles, dirty, neighbourhood, .. } = self;
+        for beside in tiling.later_neighbours() {
+            let tile = beside.tile;
+            if let Some(right) = beside.right.filter(|&right| dirty[tile] || dirty[right]) {
+                let (here, there) = pair(tiles, tile, right);
+                here.join_right(there, *neighbourhood);
+            }
+            if let Some(above) = beside.above.filter(|&above| dirty[tile] || dirty[above]) {
+                let windows = [&tiling.window(tile), &tiling.window(above)];
+                let (here, there) = pair(tiles, tile, above);
+                here.join_above(there, plane, windows, *neighbourhood);
+            }
+        }
+    }
+
+    /// Unites all nodes that touch.
+    fn connect(&mut self) {
+        let Self { tiles, tiling, first_node, parents, .. } = self;
+        first_node.clear();
+        first_node.push(0);
+        let mut count = 0;
+        for tile in &*tiles {
+            count += u32::from(tile.nodes);
+            first_node.push(count);
+        }
+        parents.clear();
+        parents.extend(0..count);
+        for beside in tiling.later_neighbours() {
+            let tile = &tiles[beside.tile];
+            let mut join = |other: usize, [a, b]: [u16; 2]| {
+                unite(parents, first_node[beside.tile] + u32::from(a), first_node[other] + u32::from(b));
+            };
+            if let Some(right) = beside.right {
+                tile.joined_right.iter().for_each(|&nodes| join(right, nodes));
+            }
+            if let Some(above) = beside.above {
+                tile.joined_above.iter().for_each(|&nodes| join(above, nodes));
+            }
+            if self.neighbourhood == Neighbourhood::Eight {
+                for (corner, joined) in [
+                    (beside.above_right, Tile::joined_at_right_corner as fn(&Tile, &Tile) -> _),
+                    (beside.above_left, Tile::joined_at_left_corner),
+                ] {
+                    if let Some((corner, nodes)) = corner.and_then(|c| joined(tile, &tiles[c]).map(|nodes| (c, nodes)))
+                    {
+                        join(corner, nodes);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Marks the nodes that are connected to a seed, and notes the seeds within rims.
+    fn mark_reached(&mut self, plane: &BitPlane, seeds: &[Cell]) {
+        self.inner.clear();
+        self.reached.clear();
+        self.reached.resize(self.parents.len(), false);
+        for &seed in seeds.iter().filter(|&&seed| plane.contains(seed)) {
+            let tile = self.tiling.at(seed.y as usize, seed.x as usize / crate::grid::WORD_CELLS);
+            let window = self.tiling.window(tile);
+            self.labels.label(plane, &window, self.neighbourhood);
+            self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
+            let Some(component) = self.labels.component_at(plane, &window, seed) else { continue };
+            match node_of(&self.nodes, component) {
+                None => self.inner.push((tile, component)),
+                Some(node) => {
+                    let root = root_of(&mut self.parents, self.first_node[tile] + u32::from(node));
+                    self.reached[root as usize] = true;
+                }
+            }
+        }
+        // A root comes before its set.
+        for node in 0..self.parents.len() {
+            let root = root_of(&mut self.parents, node as u32);
+            self.reached[node] = self.reached[root as usize];
+        }
+    }
+
+    /// Writes the reached cells of a tile; whether any is another than before.
+    fn write(&mut self, plane: &BitPlane, tile: usize) -> bool {
+        let window = self.tiling.window(tile);
+        self.labels.label(plane, &window, self.neighbourhood);
+        self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
+        let Self { labels, nodes, reached, first_node, inner, plane: target, .. } = self;
+        let first = first_node[tile] as usize;
+        let is_kept = |component: u32| match node_of(nodes, component) {
+            Some(node) => reached[first + usize::from(node)],
+            None => inner.contains(&(tile, component)),
+        };
+        let mut changed = false;
+        labels.select(plane, &window, is_kept, |y, i, word| {
+            let target = &mut target.row_mut(y)[i];
+            changed |= *target != word;
+            *target = word;
+        });
+        changed
+    }
+
+    /// What all this takes in memory, bytes.
+    pub fn memory_bytes(&self) -> usize {
+        let nodes = (self.parents.capacity() + self.first_node.capacity() + self.first_written.capacity()) * 4;
+        let flags = self.dirty.capacity() + self.has_inner.capacity();
+        self.plane.memory_bytes()
+            + self.labels.memory_bytes()
+            + self.tiles.capacity() * size_of::<Tile>()
+            + self.tiles.iter().map(Tile::memory_bytes).sum::<usize>()
+            + nodes
+            + flags
+            + self.reached.capacity()
+            + self.written.capacity()
+            + self.nodes.capacity() * size_of::<u16>()
+            + self.inner.capacity() * size_of::<(usize, u32)>()
+    }
+}
+
+/// Two of the tiles, the first, which lies before the other, for writing.
+fn pair(tiles: &mut [Tile], first: usize, second: usize) -> (&mut Tile, &Tile) {
+    let (before, after) = tiles.split_at_mut(second);
+    (&mut before[first], &after[0])
+}

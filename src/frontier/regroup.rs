@@ -1,0 +1,137 @@
+//! The frontiers of a plane of which some tiles changed.
+
+use super::clusters::FrontierCells;
+use super::group::Grouper;
+use super::tiles::Tiling;
+use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
+
+/// To find a cell's frontier again costs about as much as to label so many words.
+const WORDS_PER_CELL: usize = 8;
+/// So many cells are found again in any case.
+const MIN_CELLS: usize = 1024;
+
+/// Repairs lists of frontiers, with the buffers it keeps.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Regroup {
+    grouper: Grouper,
+    cells: Vec<Cell>,
+    fresh: FrontierCells,
+    next: FrontierCells,
+}
+
+impl Regroup {
+    /// Finds again the frontiers that have a cell in a tile that changed or touch one that
+    /// has; the others are kept. `false`, and nothing done, if these are so many that to
+    /// find all anew is as good. Of the plane nothing is changed in the end.
+    pub fn update(
+        &mut self,
+        plane: &mut BitPlane,
+        tiling: &Tiling,
+        changed: &[bool],
+        neighbourhood: Neighbourhood,
+        min_cells: usize,
+        found: &mut FrontierCells,
+    ) -> bool {
+        let most_cells = plane.words().len() / WORDS_PER_CELL + MIN_CELLS;
+        self.cells.clear();
+        let done = self.take_touched(plane, tiling, changed, neighbourhood, found, most_cells).is_some();
+        if done {
+            self.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
+            self.grouper.group(&self.cells, neighbourhood, min_cells, &mut self.fresh);
+            self.merge(plane, found);
+        }
+        for &cell in &self.cells {
+            plane.insert(cell);
+        }
+        done
+    }
+
+    /// Takes the cells of the frontiers to be found again out of the plane; `None` if they
+    /// are too many.
+    fn take_touched(
+        &mut self,
+        plane: &mut BitPlane,
+        tiling: &Tiling,
+        changed: &[bool],
+        neighbourhood: Neighbourhood,
+        found: &FrontierCells,
+        most_cells: usize,
+    ) -> Option<()> {
+        let mut rows: Option<(i32, i32)> = None;
+        for tile in (0..tiling.len()).filter(|&tile| changed[tile]) {
+            let window = tiling.window(tile);
+            let (low, high) = (window.rows.start as i32, window.rows.end as i32);
+            rows = Some(rows.map_or((low, high), |rows| (rows.0.min(low), rows.1.max(high))));
+            for y in window.rows.clone() {
+                for index in window.words.clone() {
+                    while let bits @ 1.. = plane.row(y)[index] {
+                        let x = index * WORD_CELLS + bits.trailing_zeros() as usize;
+                        self.take(plane, Cell::new(x as i32, y as i32), neighbourhood, most_cells)?;
+                    }
+                }
+            }
+        }
+        // What is left of the frontiers that lost a cell; their cells are in the order of rows.
+        let (low, high) = rows.unwrap_or((0, 0));
+        let is_near = |cells: &[Cell]| {
+            cells.last().is_some_and(|last| last.y >= low) && cells.first().is_some_and(|first| first.y < high)
+        };
+        let is_changed = |cell: &Cell| changed[tiling.at(cell.y as usize, cell.x as usize / WORD_CELLS)];
+        for cells in found.iter().filter(|cells| is_near(cells) && cells.iter().any(is_changed)) {
+            for &cell in cells {
+                self.take(plane, cell, neighbourhood, most_cells)?;
+            }
+        }
+        Some(())
+    }
+
+    /// Puts the frontiers found again among those that are kept: the ones whose cells are
+    /// still in the plane.
+    fn merge(&mut self, plane: &BitPlane, found: &mut FrontierCells) {
+        self.next.clear();
+        let mut fresh = self.fresh.iter().peekable();
+        let untouched = |cells: &&[Cell]| cells.first().is_some_and(|&cell| plane.contains(cell));
+        let order = |cells: &[Cell]| cells.first().map(|cell| (cell.y, cell.x));
+        for kept in found.iter().filter(untouched) {
+            while let Some(new) = fresh.next_if(|new| order(new) < order(kept)) {
+                self.next.append(new);
+            }
+            self.next.append(kept);
+        }
+        fresh.for_each(|new| self.next.append(new));
+        std::mem::swap(&mut self.next, found);
+    }
+
+    /// Takes a cell that is still set out of the plane, and all that are connected to it.
+    fn take(
+        &mut self,
+        plane: &mut BitPlane,
+        cell: Cell,
+        neighbourhood: Neighbourhood,
+        most_cells: usize,
+    ) -> Option<()> {
+        if !plane.remove(cell) {
+            return Some(());
+        }
+        let mut next = self.cells.len();
+        self.cells.push(cell);
+        while let Some(&cell) = self.cells.get(next) {
+            next += 1;
+            for &offset in neighbourhood.offsets() {
+                let beside = cell.offset(offset);
+                if plane.remove(beside) {
+                    self.cells.push(beside);
+                }
+            }
+        }
+        (self.cells.len() <= most_cells).then_some(())
+    }
+
+    /// What the buffers take in memory, bytes.
+    pub fn memory_bytes(&self) -> usize {
+        self.cells.capacity() * size_of::<Cell>()
+            + self.grouper.memory_bytes()
+            + self.fresh.memory_bytes()
+            + self.next.memory_bytes()
+    }
+}

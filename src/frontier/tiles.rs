@@ -1,0 +1,201 @@
+//! A plane cut into tiles, each of which remembers how its rim is connected within it.
+//!
+//! What a change in one tile does to the connections of all is found from the rims alone,
+//! as in the clusters of Botea, Müller and Schaeffer, "Near Optimal Hierarchical
+//! Path-Finding" (Journal of Game Development 2004): components that touch a tile's rim
+//! are nodes, those of two tiles that touch are joined, and what is connected to the seed
+//! is a union-find over the nodes. Only tiles that changed are labelled again.
+
+use super::contacts::for_each_contact;
+use super::labels::Labels;
+use super::window::Window;
+use crate::grid::{BitPlane, Neighbourhood};
+
+/// Words in a row of a tile.
+const TILE_WORDS: usize = 4;
+/// Rows of a tile.
+const TILE_ROWS: usize = 64;
+/// No node: the cell is not set, or its component does not touch the rim.
+const NONE: u16 = u16::MAX;
+
+/// How a plane is cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Tiling {
+    row_words: usize,
+    height: usize,
+    columns: usize,
+    rows: usize,
+}
+
+impl Tiling {
+    /// The tiles of planes of this size.
+    pub const fn new(row_words: usize, height: usize) -> Self {
+        Self { row_words, height, columns: row_words.div_ceil(TILE_WORDS), rows: height.div_ceil(TILE_ROWS) }
+    }
+
+    /// Number of tiles.
+    pub const fn len(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// The tile of a word of a row.
+    pub const fn at(&self, y: usize, word: usize) -> usize {
+        y / TILE_ROWS * self.columns + word / TILE_WORDS
+    }
+
+    /// The words of a tile.
+    pub fn window(&self, tile: usize) -> Window {
+        let (row, column) = (tile / self.columns * TILE_ROWS, tile % self.columns * TILE_WORDS);
+        Window {
+            rows: row..(row + TILE_ROWS).min(self.height),
+            words: column..(column + TILE_WORDS).min(self.row_words),
+        }
+    }
+
+    /// All tiles in order, each with those beside it that come later.
+    pub fn later_neighbours(self) -> impl Iterator<Item = LaterNeighbours> {
+        let index = move |row: usize, column: usize| row * self.columns + column;
+        (0..self.rows).flat_map(move |row| {
+            (0..self.columns).map(move |column| {
+                let (has_right, has_above) = (column + 1 < self.columns, row + 1 < self.rows);
+                LaterNeighbours {
+                    tile: index(row, column),
+                    right: has_right.then(|| index(row, column + 1)),
+                    above: has_above.then(|| index(row + 1, column)),
+                    above_left: (has_above && column > 0).then(|| index(row + 1, column - 1)),
+                    above_right: (has_above && has_right).then(|| index(row + 1, column + 1)),
+                }
+            })
+        })
+    }
+
+    /// The tile a number of columns and rows on, if there is one.
+    pub fn beside(&self, tile: usize, (columns, rows): (isize, isize)) -> Option<usize> {
+        let column = (tile % self.columns).checked_add_signed(columns).filter(|&c| c < self.columns)?;
+        let row = (tile / self.columns).checked_add_signed(rows).filter(|&r| r < self.rows)?;
+        Some(row * self.columns + column)
+    }
+}
+
+/// A tile and those beside it that come later in the order of rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LaterNeighbours {
+    /// The tile itself.
+    pub tile: usize,
+    /// The one after it.
+    pub right: Option<usize>,
+    /// The one above it.
+    pub above: Option<usize>,
+    /// The one at its corner above to the left.
+    pub above_left: Option<usize>,
+    /// The one at its corner above to the right.
+    pub above_right: Option<usize>,
+}
+
+/// The rim of a tile: which of its cells belong to which node.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Tile {
+    /// Number of nodes.
+    pub nodes: u16,
+    /// The node of each run of the lowest row.
+    lowest: Vec<u16>,
+    /// The node of each run of the highest row.
+    highest: Vec<u16>,
+    /// The node of the first cell of each row.
+    left: Vec<u16>,
+    /// The node of the last cell of each row.
+    right: Vec<u16>,
+    /// Nodes that touch a node of the tile to the right.
+    pub joined_right: Vec<[u16; 2]>,
+    /// Nodes that touch a node of the tile above.
+    pub joined_above: Vec<[u16; 2]>,
+}
+
+impl Tile {
+    /// Takes in a labelled tile. `node_of` becomes the node of each component.
+    pub fn read_rim(&mut self, plane: &BitPlane, window: &Window, labels: &Labels, node_of: &mut Vec<u16>) {
+        node_of.clear();
+        node_of.resize(labels.components(), NONE);
+        self.nodes = 0;
+        let mut node = |component: u32| {
+            let node = &mut node_of[component as usize];
+            if *node == NONE {
+                *node = self.nodes;
+                self.nodes += 1;
+            }
+            *node
+        };
+        let rows = window.rows.len();
+        self.lowest.clear();
+        self.lowest.extend(labels.row(0).iter().map(|&component| node(component)));
+        self.highest.clear();
+        self.highest.extend(labels.row(rows - 1).iter().map(|&component| node(component)));
+        self.left.clear();
+        self.right.clear();
+        for (row, y) in window.rows.clone().enumerate() {
+            let (words, components) = (window.row(plane, y), labels.row(row));
+            let first = components.first().filter(|_| words.first().is_some_and(|word| word & 1 != 0));
+            let last = components.last().filter(|_| words.last().is_some_and(|word| word >> 63 != 0));
+            self.left.push(first.map_or(NONE, |&component| node(component)));
+            self.right.push(last.map_or(NONE, |&component| node(component)));
+        }
+    }
+
+    /// Finds which nodes touch those of the tile to the right.
+    pub fn join_right(&mut self, other: &Self, neighbourhood: Neighbourhood) {
+        let reach = usize::from(neighbourhood == Neighbourhood::Eight);
+        self.joined_right.clear();
+        for (row, &node) in self.right.iter().enumerate().filter(|&(_, &node)| node != NONE) {
+            let touching = row.saturating_sub(reach)..(row + reach + 1).min(other.left.len());
+            for &next in other.left[touching].iter().filter(|&&next| next != NONE) {
+                if self.joined_right.last() != Some(&[node, next]) {
+                    self.joined_right.push([node, next]);
+                }
+            }
+        }
+    }
+
+    /// Finds which nodes touch those of the tile above; the windows are those of the two.
+    pub fn join_above(
+        &mut self,
+        other: &Self,
+        plane: &BitPlane,
+        [here, there]: [&Window; 2],
+        neighbourhood: Neighbourhood,
+    ) {
+        self.joined_above.clear();
+        let (row, above) = (here.row(plane, here.rows.end - 1), there.row(plane, there.rows.start));
+        for_each_contact(row, above, neighbourhood == Neighbourhood::Eight, |run, above_run| {
+            let pair = [self.highest[run as usize], other.lowest[above_run as usize]];
+            if self.joined_above.last() != Some(&pair) {
+                self.joined_above.push(pair);
+            }
+        });
+    }
+
+    /// The pair of nodes that touch at the corner above to the right, if one does.
+    pub fn joined_at_right_corner(&self, other: &Self) -> Option<[u16; 2]> {
+        joined(self.right.last(), other.left.first())
+    }
+
+    /// The pair of nodes that touch at the corner above to the left, if one does.
+    pub fn joined_at_left_corner(&self, other: &Self) -> Option<[u16; 2]> {
+        joined(self.left.last(), other.right.first())
+    }
+
+    /// What the rim takes in memory beside the type itself, bytes.
+    pub fn memory_bytes(&self) -> usize {
+        let nodes = [&self.lowest, &self.highest, &self.left, &self.right].map(Vec::capacity).iter().sum::<usize>();
+        nodes * size_of::<u16>() + (self.joined_right.capacity() + self.joined_above.capacity()) * size_of::<[u16; 2]>()
+    }
+}
+
+fn joined(a: Option<&u16>, b: Option<&u16>) -> Option<[u16; 2]> {
+    let (&a, &b) = (a?, b?);
+    (a != NONE && b != NONE).then_some([a, b])
+}
+
+/// The node of a component that touches the rim.
+pub(super) fn node_of(nodes: &[u16], component: u32) -> Option<u16> {
+    nodes.get(component as usize).copied().filter(|&node| node != NONE)
+}

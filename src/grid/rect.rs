@@ -1,0 +1,79 @@
+//! A rectangle of cells.
+
+use super::{GridInfo, WORD_CELLS};
+use std::ops::Range;
+
+/// The part of a grid that a `map_msgs/OccupancyGridUpdate` covers: from column `x` and
+/// row `y`, `width` columns and `height` rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CellRect {
+    /// The first column.
+    pub x: usize,
+    /// The first row.
+    pub y: usize,
+    /// Number of columns.
+    pub width: usize,
+    /// Number of rows.
+    pub height: usize,
+}
+
+impl CellRect {
+    /// All of a grid.
+    #[must_use]
+    pub const fn of(info: &GridInfo) -> Self {
+        Self { x: 0, y: 0, width: info.width(), height: info.height() }
+    }
+
+    /// The smallest rectangle that holds this one and another; one without cells counts
+    /// for nothing.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        if self.is_empty() || other.is_empty() {
+            return if self.is_empty() { other } else { self };
+        }
+        let (x, y) = (self.x.min(other.x), self.y.min(other.y));
+        let right = (self.x.saturating_add(self.width)).max(other.x.saturating_add(other.width));
+        let top = (self.y.saturating_add(self.height)).max(other.y.saturating_add(other.height));
+        Self { x, y, width: right - x, height: top - y }
+    }
+
+    /// Whether it has no cell.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.width == 0 || self.height == 0
+    }
+
+    /// Its rows within a grid.
+    #[must_use]
+    pub fn rows(&self, info: &GridInfo) -> Range<usize> {
+        let end = self.y.saturating_add(self.height).min(info.height());
+        self.y.min(end)..end
+    }
+
+    /// The words of a bit plane's rows that hold its columns within a grid.
+    #[must_use]
+    pub fn words(&self, info: &GridInfo) -> Range<usize> {
+        let end = self.x.saturating_add(self.width).min(info.width());
+        let start = self.x.min(end);
+        if start == end { 0..0 } else { start / WORD_CELLS..end.div_ceil(WORD_CELLS) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Pose;
+
+    #[test]
+    fn rows_and_words_stay_within_the_grid() {
+        let info = GridInfo::new(130, 20, 1.0, Pose::default()).unwrap();
+        let rect = |x, y, width, height| CellRect { x, y, width, height };
+        assert_eq!((CellRect::of(&info).rows(&info), CellRect::of(&info).words(&info)), (0..20, 0..3));
+        assert_eq!((rect(63, 3, 2, 4).rows(&info), rect(63, 3, 2, 4).words(&info)), (3..7, 0..2));
+        assert_eq!((rect(64, 19, 64, 9).rows(&info), rect(64, 19, 64, 9).words(&info)), (19..20, 1..2));
+        let far = rect(usize::MAX, usize::MAX, usize::MAX, usize::MAX);
+        assert!(far.rows(&info).is_empty() && far.words(&info).is_empty());
+        assert_eq!(rect(5, 6, 2, 2).union(rect(1, 7, 3, 9)), rect(1, 6, 6, 10));
+        assert_eq!(rect(5, 6, 2, 2).union(rect(1, 7, 0, 9)), rect(5, 6, 2, 2));
+    }
+}
