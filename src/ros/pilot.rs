@@ -209,7 +209,7 @@ impl Wheel {
     }
 
     fn scan(&self, map_frame: &str, now_s: f64) -> Option<(Pose, LaserScan)> {
-        let (pose, scan) = self.scans.as_ref()?.newest_in(map_frame, &self.transforms)?.ok()?;
+        let (pose, scan) = self.scans.as_ref()?.newest_in(map_frame, &self.transforms)?;
         (now_s - scan.stamp_s <= SCAN_LIMIT_S).then_some((pose, scan))
     }
 

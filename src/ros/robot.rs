@@ -245,7 +245,7 @@ impl RosRobot {
 
     fn scan(&self) -> Option<(Pose, Arc<LaserScan>)> {
         let (scans, known) = (self.parts.scans.as_ref()?, self.map.as_ref()?);
-        let (pose, scan) = scans.newest_in(&known.received.frame, &self.parts.transforms)?.ok()?;
+        let (pose, scan) = scans.newest_in(&known.received.frame, &self.parts.transforms)?;
         Some((pose, Arc::new(scan)))
     }
 

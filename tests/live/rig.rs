@@ -76,7 +76,15 @@ impl Process {
 }
 
 impl Drop for Process {
+    /// Asks it to end, as roscore and roslaunch end their own children then, and makes it.
     fn drop(&mut self) {
+        if matches!(self.child.try_wait(), Ok(None)) {
+            let _ = Command::new("kill").arg("-INT").arg(self.child.id().to_string()).status();
+            let began = Instant::now();
+            while matches!(self.child.try_wait(), Ok(None)) && began.elapsed() < Duration::from_secs(8) {
+                std::thread::sleep(Duration::from_millis(20));
+            }
+        }
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -250,7 +250,7 @@ fn killed_master(stage: &Stage) {
     let _sim = stage.sim("");
     let mut explore = stage.explore("_exit_when_done:=true");
     explore.expect_log("best of", DEADLINE);
-    stage.roscore.signal("KILL");
+    stage.roscore.signal("INT");
     explore.expect_code(0, DEADLINE);
     assert!(explore.log().contains("complete: "), "{}", explore.log());
     assert!(stage.folder.join("map.pgm").exists(), "{}", explore.log());

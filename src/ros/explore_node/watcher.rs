@@ -6,7 +6,7 @@ use super::outputs::Outputs;
 use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
 use crate::grid::Thresholds;
-use crate::robot::Observation;
+use crate::robot::{NavigationState, Observation};
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
 use crate::ros::msg::frontier_explorer::ExplorationStatus;
@@ -143,7 +143,12 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         self.count_area(robot);
         let counts = explorer.counts();
         if counts.goals_failed > self.failed_before {
-            self.node.log().warn(format_args!("{} of {} goals failed", counts.goals_failed, counts.goals_sent));
+            let why = match &observation.navigation.state {
+                NavigationState::Aborted(why) => why.as_str(),
+                _ => "no progress",
+            };
+            let (failed, sent) = (counts.goals_failed, counts.goals_sent);
+            self.node.log().warn(format_args!("a goal failed: {why} ({failed} of {sent} so far)"));
         }
         self.failed_before = counts.goals_failed;
         if let Some(sentence) = phase_sentence(decision.phase) {
