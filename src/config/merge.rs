@@ -25,21 +25,21 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn check(base: Value, over: Value, expected: Value) {
+    fn check(base: Value, over: Value, expected: &Value) {
         let mut merged = base;
         merge(&mut merged, over);
-        assert_eq!(merged, expected);
+        assert_eq!(merged, *expected);
     }
 
     #[test]
     fn what_is_not_named_stays() {
-        check(json!({"a": {"b": 1, "c": 2}}), json!({"a": {"c": 3}}), json!({"a": {"b": 1, "c": 3}}));
-        check(json!({"a": [1, 2]}), json!({"a": [3]}), json!({"a": [3]}));
+        check(json!({"a": {"b": 1, "c": 2}}), json!({"a": {"c": 3}}), &json!({"a": {"b": 1, "c": 3}}));
+        check(json!({"a": [1, 2]}), json!({"a": [3]}), &json!({"a": [3]}));
     }
 
     #[test]
     fn another_name_replaces_the_table() {
-        check(json!({"name": "dwa", "x": 1}), json!({"name": "dwa", "y": 2}), json!({"name": "dwa", "x": 1, "y": 2}));
-        check(json!({"name": "dwa", "x": 1}), json!({"name": "p"}), json!({"name": "p"}));
+        check(json!({"name": "dwa", "x": 1}), json!({"name": "dwa", "y": 2}), &json!({"name": "dwa", "x": 1, "y": 2}));
+        check(json!({"name": "dwa", "x": 1}), json!({"name": "p"}), &json!({"name": "p"}));
     }
 }

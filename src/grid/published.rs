@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn published_values_come_back_and_costs_nearly() {
         for value in -1..=100_i8 {
-            assert_eq!(value_of(cost_of(value)).abs_diff(value) <= 1, true, "{value}");
+            assert!(value_of(cost_of(value)).abs_diff(value) <= 1, "{value}");
         }
         for cost in [0, 253, 254, 255] {
             assert_eq!(cost_of(value_of(cost)), cost);

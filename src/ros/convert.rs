@@ -189,7 +189,7 @@ mod tests {
         let there = Pose::new(1.5, -2.0, 2.8);
         let back = pose(&pose_message(&there));
         assert!(back.distance_to(there.position()) < 1e-12 && (back.yaw - there.yaw).abs() < 1e-12);
-        assert!((seconds(&time(1234.567_891)) - 1234.567_891).abs() < 1e-9);
+        assert!((seconds(&time(1_234.567_891)) - 1_234.567_891).abs() < 1e-9);
         assert_eq!(seconds(&time(-3.0)), 0.0);
     }
 

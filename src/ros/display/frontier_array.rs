@@ -3,7 +3,6 @@
 use super::super::convert::{header, point_message, pose_message};
 use super::super::msg::frontier_explorer::{Frontier, FrontierArray};
 use crate::explore::{CandidateRecord, CandidateStatus, DecisionRecord};
-use crate::geometry::Pose;
 
 /// The message of a decision.
 #[must_use]
@@ -29,7 +28,7 @@ fn frontier(candidate: &CandidateRecord, rank: &mut u32) -> Frontier {
         rank: if is_ranked { *rank } else { 0 },
         target: point_message(candidate.target.x, candidate.target.y),
         has_goal: candidate.goal.is_some(),
-        goal: pose_message(&candidate.goal.unwrap_or_else(Pose::default)),
+        goal: pose_message(&candidate.goal.unwrap_or_default()),
         size_cells: u32::try_from(candidate.size_cells).unwrap_or(u32::MAX),
         size_m: candidate.size_m,
         distance_m: candidate.distance_m,

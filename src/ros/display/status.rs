@@ -114,7 +114,7 @@ pub fn status_sentence(status: &ExplorationStatus) -> String {
 /// The region to explore; without corners when everything is.
 #[must_use]
 pub fn region_message(region: Option<&Polygon>, frame: &str, stamp_s: f64) -> PolygonStamped {
-    let corners = region.map(|polygon| polygon.corners()).unwrap_or_default();
+    let corners = region.map(Polygon::corners).unwrap_or_default();
     let points = corners.iter().map(|p| Point32 { x: p.x as f32, y: p.y as f32, z: 0.0 }).collect();
     PolygonStamped { header: header(frame, stamp_s), polygon: PolygonMessage { points } }
 }

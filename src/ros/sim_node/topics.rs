@@ -23,6 +23,9 @@ const MAP: &str = "map";
 const ODOM: &str = "odom";
 const SCAN: &str = "base_scan";
 
+/// A map, and the ROS time in seconds at which it was told.
+type Told = (Arc<OccupancyGrid>, f64);
+
 /// The topics of the simulated robot.
 pub struct Topics {
     scan: Publisher<ScanMessage>,
@@ -34,7 +37,7 @@ pub struct Topics {
     clock: Option<Publisher<Clock>>,
     base_frame: String,
     scan_period_s: f64,
-    newest: Arc<Mutex<Option<(Arc<OccupancyGrid>, f64)>>>,
+    newest: Arc<Mutex<Option<Told>>>,
     _tf_static: Publisher<TFMessage>,
     _dynamic_map: Service,
 }
@@ -45,7 +48,7 @@ impl Topics {
     /// # Errors
     /// [`NodeError`] when something cannot be offered.
     pub fn offer(node: &Node, robot: &RobotConfig, base_frame: &str, with_clock: bool) -> Result<Self, NodeError> {
-        let newest = Arc::<Mutex<Option<(Arc<OccupancyGrid>, f64)>>>::default();
+        let newest = Arc::<Mutex<Option<Told>>>::default();
         let theirs = Arc::clone(&newest);
         let dynamic_map = node.serve::<GetMap>("dynamic_map", move |_| {
             let newest = theirs.lock().unwrap_or_else(PoisonError::into_inner).clone();
