@@ -277,7 +277,7 @@ mod tests {
         expected.explorer.patience.time_limit_s = Some(600.0);
         assert_eq!(changed, expected);
         let selection = json!({"explorer": {"selection": {"name": "mrtsp"}}});
-        assert!(matches!(preset(selection).unwrap().explorer.selection, SelectorConfig::Mrtsp(..)));
+        assert!(matches!(preset(selection).unwrap().explorer.selection, SelectorConfig::Mrtsp {}));
     }
 
     #[test]

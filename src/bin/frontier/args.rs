@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{bench, compare, demo, detect, explore, map};
+use crate::commands::{bag, bench, compare, demo, detect, explore, map};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -26,6 +26,9 @@ pub enum Command {
     /// Look at, convert and compare map_server maps.
     #[command(subcommand)]
     Map(map::Command),
+    /// Look into ROS 1 bags.
+    #[command(subcommand)]
+    Bag(bag::Command),
     /// Time decisions on a map.
     #[command(subcommand)]
     Bench(bench::Command),

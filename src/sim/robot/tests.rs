@@ -4,6 +4,7 @@ use crate::control::{FollowerConfig, PathFollower};
 use crate::grid::{GridInfo, Thresholds};
 use crate::navigation::NavigatorConfig;
 use crate::planning::Astar;
+use crate::sim::WorldError;
 
 /// Two rooms of 6 m x 5 m side by side with a door of 1 m, in cells of 0.05 m.
 fn two_rooms() -> Arc<World> {

@@ -1,5 +1,6 @@
 //! One file for each command.
 
+pub mod bag;
 pub mod bench;
 pub mod compare;
 pub mod demo;
@@ -17,6 +18,7 @@ pub fn run(command: Command) -> anyhow::Result<Outcome> {
         Command::Compare(args) => compare::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Detect(args) => detect::run(&args),
+        Command::Bag(command) => bag::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Map(command) => map::run(&command),
     }

@@ -1,0 +1,6 @@
+//! A recording behind the port that the explorer knows: the very pipeline of the node, at
+//! the time of a bag (the rim).
+
+mod inputs;
+
+pub use inputs::{InputError, Inputs, Wanted};
