@@ -2,5 +2,9 @@
 //! the time of a bag (the rim).
 
 mod inputs;
+mod player;
+mod robot;
 
 pub use inputs::{InputError, Inputs, Wanted};
+pub use player::{Player, RecordedGoal, Tap};
+pub use robot::BagRobot;
