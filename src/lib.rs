@@ -12,6 +12,7 @@ pub mod frontier;
 pub mod geometry;
 pub mod grid;
 pub mod io;
+pub mod mapping;
 pub mod navigation;
 pub mod planning;
 pub mod range;

@@ -29,6 +29,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("sim", FLOORS_0_TO_2),
     ("report", FLOORS_0_TO_2_AND_IO),
     ("bag", FLOORS_0_TO_2),
+    // Scans become a map by the simulator's mapper.
+    ("mapping", FLOORS_0_TO_2_IO_AND_SIM),
     // A recording behind the port.
     ("replay", FLOORS_0_TO_2_IO_AND_BAG),
     // The nodes: sim_node is the simulator behind ROS.

@@ -58,6 +58,8 @@ pub struct Inputs {
     pub map_frame: Option<String>,
     /// The robot's frame.
     pub base_frame: Option<String>,
+    /// The frame that the wheels' odometry is in: `odom` above the robot, or the map's.
+    pub odom_frame: Option<String>,
 }
 
 impl Inputs {
@@ -87,7 +89,8 @@ impl Inputs {
             Some(frame) => Some(known(&frames, frame)?),
             None => map_frame.as_deref().and_then(|map| base_frame(summary, map)),
         };
-        Ok(Self { map_topic, updates_topic, scan_topic, goal_topic, map_frame, base_frame })
+        let odom_frame = base_frame.as_deref().and_then(|base| odom_frame(summary, base)).or_else(|| map_frame.clone());
+        Ok(Self { map_topic, updates_topic, scan_topic, goal_topic, map_frame, base_frame, odom_frame })
     }
 
     /// What can be done with them, a sentence each.
@@ -99,9 +102,7 @@ impl Inputs {
                 let updates = if self.updates_topic.is_some() { " with its updates" } else { "" };
                 format!("frontier replay: yes, with the map on {map}{updates} and the robot as {base} in {frame}")
             }
-            (None, ..) => {
-                "frontier replay: not yet, there is no map: `frontier replay --build-map` makes one".to_owned()
-            }
+            (None, ..) => "frontier replay: no, there is no map".to_owned(),
             _ => "frontier replay: no, tf has nothing that leads from the map to the robot".to_owned(),
         };
         says.push(replayed);
@@ -200,6 +201,12 @@ fn chain<'a>(summary: &'a Summary, frame: &str) -> Vec<&'a str> {
     above
 }
 
+/// The frame above the robot that is called `odom`.
+fn odom_frame(summary: &Summary, base_frame: &str) -> Option<String> {
+    let above = chain(summary, base_frame);
+    above.into_iter().find(|name| name.rsplit('/').next() == Some("odom")).map(str::to_owned)
+}
+
 /// The robot's frame: named as REP 105 has it, or the frame below the map in which most of
 /// the tree hangs.
 fn base_frame(summary: &Summary, map_frame: &str) -> Option<String> {
@@ -256,6 +263,7 @@ mod tests {
             goal_topic: None,
             map_frame: Some("world".into()),
             base_frame: Some("robot/base_link".into()),
+            odom_frame: Some("odom".into()),
         };
         assert_eq!(inputs, expected);
         assert!(inputs.verdict()[0].starts_with("frontier replay: yes"));

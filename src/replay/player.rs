@@ -203,8 +203,7 @@ impl<R: Read + Seek> Player<R> {
     #[must_use]
     pub fn robot_at(&self, frame: &str, stamp_s: f64) -> Option<Pose> {
         let base = self.inputs.base_frame.as_deref()?;
-        let exact = self.transforms.at(frame, base, stamp_s);
-        exact.or_else(|_| self.transforms.latest(frame, base).map(|newest| newest.transform)).ok().map(|t| planar(&t))
+        self.transforms.at(frame, base, stamp_s).ok().map(|transform| planar(&transform))
     }
 
     /// The newest map.
