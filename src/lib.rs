@@ -4,6 +4,7 @@
 //! occupancy grid goes in, frontiers are detected, a goal is chosen, the robot drives
 //! there, and at the end a map_server map is saved. `ARCHITECTURE.md` shows the floors.
 
+pub mod bag;
 pub mod config;
 pub mod control;
 pub mod explore;
@@ -11,9 +12,11 @@ pub mod frontier;
 pub mod geometry;
 pub mod grid;
 pub mod io;
+pub mod mapping;
 pub mod navigation;
 pub mod planning;
 pub mod range;
+pub mod replay;
 pub mod report;
 pub mod robot;
 pub mod ros;

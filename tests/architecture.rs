@@ -28,6 +28,11 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("io", FLOORS_0_TO_2),
     ("sim", FLOORS_0_TO_2),
     ("report", FLOORS_0_TO_2_AND_IO),
+    ("bag", FLOORS_0_TO_2),
+    // Scans become a map by the simulator's mapper.
+    ("mapping", FLOORS_0_TO_2_IO_AND_SIM),
+    // A recording behind the port.
+    ("replay", FLOORS_0_TO_2_IO_AND_BAG),
     // The nodes: sim_node is the simulator behind ROS.
     ("ros", FLOORS_0_TO_2_IO_AND_SIM),
 ];
@@ -54,6 +59,23 @@ const DOWNWARDS: &[&str; 15] = &[
 const FLOORS_0_TO_2: &[&str] = DOWNWARDS.split_at(13).0;
 const FLOORS_0_TO_2_AND_IO: &[&str] = DOWNWARDS.split_at(14).0;
 const FLOORS_0_TO_2_IO_AND_SIM: &[&str] = DOWNWARDS;
+const FLOORS_0_TO_2_IO_AND_BAG: &[&str] = &[
+    "range",
+    "geometry",
+    "scan",
+    "grid",
+    "tf",
+    "frontier",
+    "selection",
+    "planning",
+    "control",
+    "robot",
+    "navigation",
+    "explore",
+    "config",
+    "io",
+    "bag",
+];
 
 /// Rooms of floors 0 to 2, in which no clock is read.
 const PURE: &[&str] = FLOORS_0_TO_2;

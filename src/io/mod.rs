@@ -5,6 +5,7 @@
 //! in and on the way out, and nowhere else.
 
 mod atomic;
+mod atomic_file;
 mod error;
 mod image_file;
 mod map_load;
@@ -15,6 +16,7 @@ mod settings;
 mod worlds;
 
 pub use atomic::write_atomic;
+pub use atomic_file::AtomicFile;
 pub use error::MapError;
 pub use map_load::{LoadedMap, load_map, map_from_bytes};
 pub use map_save::{MapImage, SaveOptions, SavedPaths, save_map};

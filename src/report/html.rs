@@ -95,6 +95,11 @@ impl<D: Serialize> HtmlReport<'_, D> {
 
 /// Why it ended and what it came to, in a sentence or two.
 fn headline<D>(run: &RunRecord<D>) -> String {
+    // A recording has no seed, and nobody knows how large its world was.
+    if run.seed.is_none() {
+        let (area_m2, time) = (run.known_area_m2, clock(run.sim_time_s));
+        return format!("{}; {area_m2:.1} m² were mapped in {time} and {:.1} m.", run.end_message, run.distance_m);
+    }
     format!(
         "{}; {:.1} % of the world was covered in {} and {:.1} m.",
         run.end_message,

@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{bench, compare, demo, detect, explore, map};
+use crate::commands::{bag, bench, compare, demo, detect, explore, map, replay};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -26,6 +26,11 @@ pub enum Command {
     /// Look at, convert and compare map_server maps.
     #[command(subcommand)]
     Map(map::Command),
+    /// Explore a recording: what would have been decided, when and why.
+    Replay(replay::Args),
+    /// Look into ROS 1 bags.
+    #[command(subcommand)]
+    Bag(bag::Command),
     /// Time decisions on a map.
     #[command(subcommand)]
     Bench(bench::Command),

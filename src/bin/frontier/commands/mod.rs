@@ -1,11 +1,13 @@
 //! One file for each command.
 
+pub mod bag;
 pub mod bench;
 pub mod compare;
 pub mod demo;
 pub mod detect;
 pub mod explore;
 pub mod map;
+pub mod replay;
 
 use crate::args::Command;
 use crate::exit::Outcome;
@@ -17,6 +19,8 @@ pub fn run(command: Command) -> anyhow::Result<Outcome> {
         Command::Compare(args) => compare::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Detect(args) => detect::run(&args),
+        Command::Replay(args) => replay::run(&args),
+        Command::Bag(command) => bag::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Map(command) => map::run(&command),
     }

@@ -1,5 +1,6 @@
 //! `frontier map`: map_server maps.
 
+mod build;
 mod convert;
 mod diff;
 mod info;
@@ -14,6 +15,8 @@ use clap::Subcommand;
 pub enum Command {
     /// Print size, resolution, origin and the areas known and unknown.
     Info(info::Args),
+    /// Make a map from the scans and the odometry of a bag.
+    Build(build::Args),
     /// Write a map anew, as map_saver would save it.
     Convert(convert::Args),
     /// Wait for a map on a ROS topic and save it, as map_saver does.
@@ -26,6 +29,7 @@ pub enum Command {
 pub fn run(command: &Command) -> anyhow::Result<Outcome> {
     match command {
         Command::Info(args) => info::run(args),
+        Command::Build(args) => build::run(args),
         Command::Convert(args) => convert::run(args),
         Command::Save(args) => save::run(args),
         Command::Diff(args) => diff::run(args),

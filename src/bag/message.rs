@@ -1,0 +1,247 @@
+//! What exploration needs of the messages in a bag, decoded.
+//!
+//! Each function takes the bytes of a message of one type, whose md5 sum was looked at
+//! before ([`super::MessageType`]).
+
+use super::cursor::{Cursor, Malformed};
+use super::{Nanos, seconds};
+use crate::geometry::Pose;
+use crate::grid::{Cell, GridInfo, GridPatch, OccupancyGrid};
+use crate::scan::LaserScan;
+use crate::tf::{TransformSample, planar};
+use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+
+/// `std_msgs/Header`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Header {
+    /// Counts messages.
+    pub seq: u32,
+    /// When it was true.
+    pub stamp: Nanos,
+    /// What its coordinates are in.
+    pub frame: String,
+}
+
+/// `nav_msgs/OccupancyGrid`.
+#[derive(Clone, Debug)]
+pub struct MapMessage {
+    /// Its header.
+    pub header: Header,
+    /// The map.
+    pub grid: OccupancyGrid,
+}
+
+/// `map_msgs/OccupancyGridUpdate`.
+#[derive(Clone, Debug)]
+pub struct PatchMessage {
+    /// Its header.
+    pub header: Header,
+    /// The rectangle.
+    pub patch: GridPatch,
+}
+
+/// `sensor_msgs/LaserScan`, in the frame of the lidar itself.
+#[derive(Clone, Debug)]
+pub struct ScanMessage {
+    /// Its header; the frame is the lidar's.
+    pub header: Header,
+    /// The sweep.
+    pub scan: LaserScan,
+}
+
+/// `geometry_msgs/PoseStamped`, or one wrapped in an action goal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StampedPose {
+    /// Its header.
+    pub header: Header,
+    /// The pose in the plane of the header's frame.
+    pub pose: Pose,
+}
+
+/// `nav_msgs/Odometry`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Odometry {
+    /// Its header.
+    pub header: Header,
+    /// The robot's frame.
+    pub child: String,
+    /// Where the robot believes it is in the header's frame.
+    pub pose: Pose,
+}
+
+impl Cursor<'_> {
+    fn header(&mut self) -> Result<Header, Malformed> {
+        Ok(Header { seq: self.u32("seq")?, stamp: self.time("stamp")?, frame: self.text("frame_id")? })
+    }
+
+    fn xyz(&mut self) -> Result<[f64; 3], Malformed> {
+        Ok([self.f64("x")?, self.f64("y")?, self.f64("z")?])
+    }
+
+    fn xyzw(&mut self) -> Result<[f64; 4], Malformed> {
+        let [x, y, z] = self.xyz()?;
+        Ok([x, y, z, self.f64("w")?])
+    }
+
+    fn pose(&mut self) -> Result<Pose, Malformed> {
+        let ([x, y, z], [i, j, k, w]) = (self.xyz()?, self.xyzw()?);
+        let rotation = Quaternion::new(w, i, j, k);
+        // An orientation of all zeros is what a message has when nobody filled it in.
+        let rotation =
+            if rotation.norm() < 1e-9 { UnitQuaternion::identity() } else { UnitQuaternion::from_quaternion(rotation) };
+        let pose = planar(&Isometry3::from_parts(Translation3::new(x, y, z), rotation));
+        if pose.is_finite() {
+            Ok(pose)
+        } else {
+            Err(Malformed::Wrong("a pose with numbers that are not finite".into()))
+        }
+    }
+
+    fn cells(&mut self) -> Result<Vec<i8>, Malformed> {
+        Ok(self.block("data")?.iter().map(|&byte| byte.cast_signed()).collect())
+    }
+}
+
+/// The header that a message begins with.
+///
+/// # Errors
+/// [`Malformed`] when it is cut.
+pub fn header(bytes: &[u8]) -> Result<Header, Malformed> {
+    Cursor::new(bytes).header()
+}
+
+/// The time of a `rosgraph_msgs/Clock`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut.
+pub fn clock(bytes: &[u8]) -> Result<Nanos, Malformed> {
+    Cursor::new(bytes).time("clock")
+}
+
+/// A `nav_msgs/OccupancyGrid`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut, or no map.
+pub fn map(bytes: &[u8]) -> Result<MapMessage, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    let header = cursor.header()?;
+    cursor.time("map_load_time")?;
+    let resolution = cursor.f32("resolution")?;
+    let (width, height) = (cursor.u32("width")?, cursor.u32("height")?);
+    let origin = cursor.pose()?;
+    // 0.05 is a little more than 0.05 in 32 bits: the shortest decimal is what was meant.
+    let resolution_m = resolution.to_string().parse().unwrap_or_else(|_| f64::from(resolution));
+    let wrong = |error: &dyn std::fmt::Display| Malformed::Wrong(error.to_string());
+    let info = GridInfo::new(width, height, resolution_m, origin).map_err(|error| wrong(&error))?;
+    let grid = OccupancyGrid::new(info, cursor.cells()?).map_err(|error| wrong(&error))?;
+    Ok(MapMessage { header, grid })
+}
+
+/// A `map_msgs/OccupancyGridUpdate`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut.
+pub fn patch(bytes: &[u8]) -> Result<PatchMessage, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    let header = cursor.header()?;
+    let corner = Cell::new(cursor.i32("x")?, cursor.i32("y")?);
+    let (width, height) = (cursor.u32("width")?, cursor.u32("height")?);
+    Ok(PatchMessage { header, patch: GridPatch { corner, width, height, data: cursor.cells()? } })
+}
+
+/// The transforms of a `tf2_msgs/TFMessage` or `tf/tfMessage`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut.
+pub fn transforms(bytes: &[u8]) -> Result<Vec<TransformSample>, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    // Header, name and numbers of each take at least this.
+    let count = cursor.count(76, "transforms")?;
+    (0..count)
+        .map(|_| {
+            let header = cursor.header()?;
+            Ok(TransformSample {
+                parent: header.frame,
+                child: cursor.text("child_frame_id")?,
+                stamp_s: seconds(header.stamp),
+                translation_m: cursor.xyz()?,
+                rotation_xyzw: cursor.xyzw()?,
+            })
+        })
+        .collect()
+}
+
+/// A `sensor_msgs/LaserScan`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut, or its angles are no numbers.
+pub fn scan(bytes: &[u8]) -> Result<ScanMessage, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    let header = cursor.header()?;
+    let angle_min = cursor.f32("angle_min")?;
+    cursor.f32("angle_max")?;
+    let angle_increment = cursor.f32("angle_increment")?;
+    cursor.f32("time_increment")?;
+    cursor.f32("scan_time")?;
+    let (range_min, range_max) = (cursor.f32("range_min")?, cursor.f32("range_max")?);
+    let count = cursor.count(4, "ranges")?;
+    let ranges_m: Vec<f32> = (0..count).map(|_| cursor.f32("ranges")).collect::<Result<_, _>>()?;
+    let numbers = [angle_min, angle_increment, range_min, range_max];
+    if !numbers.iter().all(|number| number.is_finite()) {
+        return Err(Malformed::Wrong(format!("a scan with angles or limits that are not finite: {numbers:?}")));
+    }
+    let scan = LaserScan {
+        stamp_s: seconds(header.stamp),
+        angle_min_rad: f64::from(angle_min),
+        angle_increment_rad: f64::from(angle_increment),
+        range_min_m: f64::from(range_min),
+        range_max_m: f64::from(range_max),
+        ranges_m,
+    };
+    Ok(ScanMessage { header, scan })
+}
+
+/// A `nav_msgs/Odometry`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut, or its pose no numbers.
+pub fn odometry(bytes: &[u8]) -> Result<Odometry, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    Ok(Odometry { header: cursor.header()?, child: cursor.text("child_frame_id")?, pose: cursor.pose()? })
+}
+
+/// A `geometry_msgs/PoseStamped`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut, or its pose no numbers.
+pub fn pose(bytes: &[u8]) -> Result<StampedPose, Malformed> {
+    stamped(&mut Cursor::new(bytes))
+}
+
+fn stamped(cursor: &mut Cursor<'_>) -> Result<StampedPose, Malformed> {
+    Ok(StampedPose { header: cursor.header()?, pose: cursor.pose()? })
+}
+
+/// The target of a `move_base_msgs/MoveBaseActionGoal`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut, or its pose no numbers.
+pub fn goal(bytes: &[u8]) -> Result<StampedPose, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    cursor.header()?;
+    cursor.time("goal_id.stamp")?;
+    cursor.text("goal_id.id")?;
+    stamped(&mut cursor)
+}
+
+/// The poses of a `nav_msgs/Path`.
+///
+/// # Errors
+/// [`Malformed`] when it is cut, or a pose no numbers.
+pub fn path(bytes: &[u8]) -> Result<(Header, Vec<Pose>), Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    let header = cursor.header()?;
+    let count = cursor.count(72, "poses")?;
+    let poses = (0..count).map(|_| stamped(&mut cursor).map(|stamped| stamped.pose)).collect::<Result<_, _>>()?;
+    Ok((header, poses))
+}

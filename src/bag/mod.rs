@@ -1,0 +1,53 @@
+//! ROS 1 bags (format 2.0): reading, writing, and the messages in them that exploration
+//! needs (the rim).
+//!
+//! Nothing here opens a file or needs ROS: bytes come from any [`std::io::Read`] with
+//! [`std::io::Seek`]. Whatever the bytes say, nothing panics, hangs or takes more memory
+//! than a chunk and an index: lengths are believed only as far as bytes are there.
+
+mod chunk;
+mod cursor;
+mod definitions;
+mod encode;
+mod message;
+mod playback;
+mod reader;
+mod record;
+mod summary;
+mod writer;
+
+pub use chunk::{Compression, MAX_CHUNK_BYTES};
+pub use cursor::Malformed;
+pub use definitions::MessageType;
+pub use encode::{
+    clock_message, goal_message, map_message, marker_message, odometry_message, path_message, pose_message,
+    scan_message, tf_message,
+};
+pub use message::{
+    Header, MapMessage, Odometry, PatchMessage, ScanMessage, StampedPose, clock, goal, header, map, odometry, patch,
+    path, pose, scan, transforms,
+};
+pub use playback::{Playback, PlayedMessage};
+pub use reader::{BagError, BagReader, Chunk, ChunkMessage, Connection};
+pub use summary::{ChunkPlace, FrameLink, Summary, TopicSummary};
+pub use writer::BagWriter;
+
+/// Nanoseconds since 1970, as bags count time.
+pub type Nanos = u64;
+
+/// Nanoseconds in seconds.
+#[must_use]
+pub fn seconds(nanos: Nanos) -> f64 {
+    (nanos / 1_000_000_000) as f64 + (nanos % 1_000_000_000) as f64 * 1e-9
+}
+
+/// Seconds in nanoseconds, as far as a ROS time reaches: from 0 to 2^32 s.
+#[must_use]
+pub fn nanos(seconds: f64) -> Nanos {
+    let whole = seconds.clamp(0.0, f64::from(u32::MAX)).floor();
+    let rest = ((seconds - whole).clamp(0.0, 1.0) * 1e9).round();
+    whole as u64 * 1_000_000_000 + rest as u64
+}
+
+#[cfg(test)]
+mod tests;

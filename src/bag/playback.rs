@@ -1,0 +1,100 @@
+//! The messages of a bag in the order of their times.
+//!
+//! In the file they stand as they were written, and chunks can overlap: a chunk is opened
+//! when the times that it begins with have come.
+
+use super::reader::{BagReader, Chunk, Connection};
+use super::summary::{ChunkPlace, Summary};
+use super::{BagError, Nanos};
+use std::io::{Read, Seek};
+use std::sync::Arc;
+
+/// Chunks that overlap are kept open up to this many bytes; beyond it, messages come in
+/// the order of the file.
+const MAX_OPEN_BYTES: usize = 96 << 20;
+
+/// A message with its bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct PlayedMessage<'a> {
+    /// Its topic and type.
+    pub connection: &'a Arc<Connection>,
+    /// When it was recorded.
+    pub time: Nanos,
+    /// The message.
+    pub data: &'a [u8],
+}
+
+struct Open {
+    chunk: Chunk,
+    next: usize,
+}
+
+/// Plays a bag.
+pub struct Playback<R> {
+    reader: BagReader<R>,
+    /// Still to be opened, the last first.
+    places: Vec<ChunkPlace>,
+    open: Vec<Open>,
+    spare: Vec<Chunk>,
+}
+
+impl<R: Read + Seek> Playback<R> {
+    /// From the first message of a bag that was looked through before.
+    ///
+    /// # Errors
+    /// [`BagError`] when it is not a bag any more.
+    pub fn new(input: R, summary: &Summary) -> Result<Self, BagError> {
+        let mut places = summary.chunks.clone();
+        places.sort_by_key(|place| std::cmp::Reverse((place.start, place.offset)));
+        let mut reader = BagReader::new(input)?;
+        reader.know(&summary.connections);
+        Ok(Self { reader, places, open: Vec::new(), spare: Vec::new() })
+    }
+
+    /// The time of the next message; `None` at the end.
+    ///
+    /// # Errors
+    /// [`BagError`] when the file cannot be read.
+    pub fn peek(&mut self) -> Result<Option<Nanos>, BagError> {
+        loop {
+            let earliest = self.open.iter().filter_map(Open::time).min();
+            let bytes: usize = self.open.iter().map(|open| open.chunk.len()).sum();
+            match (self.places.last(), earliest) {
+                (Some(place), Some(time)) if place.start > time || bytes > MAX_OPEN_BYTES => return Ok(Some(time)),
+                (None, earliest) => return Ok(earliest),
+                (Some(place), _) => {
+                    let offset = place.offset;
+                    self.places.pop();
+                    self.reader.seek(offset)?;
+                    let mut chunk = self.spare.pop().unwrap_or_default();
+                    self.reader.next_chunk(&mut chunk)?;
+                    chunk.messages.sort_by_key(|message| message.time);
+                    self.open.push(Open { chunk, next: 0 });
+                }
+            }
+        }
+    }
+
+    /// The next message; `None` at the end.
+    ///
+    /// # Errors
+    /// [`BagError`] when the file cannot be read.
+    pub fn next_message(&mut self) -> Result<Option<PlayedMessage<'_>>, BagError> {
+        let Some(time) = self.peek()? else { return Ok(None) };
+        while let Some(done) = self.open.iter().position(|open| open.time().is_none()) {
+            self.spare.push(self.open.remove(done).chunk);
+        }
+        self.spare.truncate(2);
+        let Some(open) = self.open.iter_mut().find(|open| open.time() == Some(time)) else { return Ok(None) };
+        let Some(message) = open.chunk.messages.get(open.next) else { return Ok(None) };
+        open.next += 1;
+        let connection = self.reader.connections().get(&message.connection);
+        Ok(connection.map(|connection| PlayedMessage { connection, time, data: open.chunk.data(message) }))
+    }
+}
+
+impl Open {
+    fn time(&self) -> Option<Nanos> {
+        self.chunk.messages.get(self.next).map(|message| message.time)
+    }
+}

@@ -1,0 +1,37 @@
+//! `frontier bag`: ROS 1 bags.
+
+mod info;
+
+use crate::exit::Outcome;
+use anyhow::Context;
+use clap::Subcommand;
+use frontier_explorer::bag::Summary;
+use std::fs::File;
+use std::path::Path;
+
+/// What to do with bags.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Print topics, rates, gaps and frames, and what a replay can do with them.
+    Info(info::Args),
+}
+
+/// Runs `frontier bag`.
+pub fn run(command: &Command) -> anyhow::Result<Outcome> {
+    match command {
+        Command::Info(args) => info::run(args),
+    }
+}
+
+/// Opens a bag.
+pub fn open(path: &Path) -> anyhow::Result<File> {
+    let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
+    let is_file = file.metadata().with_context(|| format!("cannot read {}", path.display()))?.is_file();
+    anyhow::ensure!(is_file, "{} is no file: must be a bag", path.display());
+    Ok(file)
+}
+
+/// Looks through a bag.
+pub fn summary(path: &Path) -> anyhow::Result<Summary> {
+    Summary::of(open(path)?).with_context(|| path.display().to_string())
+}

@@ -1,0 +1,132 @@
+//! `frontier map build`: a map from the scans and the odometry of a bag.
+
+use crate::commands::bag;
+use crate::exit::Outcome;
+use crate::{output, values};
+use anyhow::{Context, bail};
+use frontier_explorer::bag::ScanMessage;
+use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::grid::Thresholds;
+use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
+use frontier_explorer::mapping::{BuilderConfig, MapBuilder};
+use frontier_explorer::replay::{Inputs, Player, Wanted};
+use frontier_explorer::report::{Picture, Theme};
+use std::collections::VecDeque;
+use std::path::PathBuf;
+
+/// So many scans wait for the transforms of their time.
+const WAITING: usize = 40;
+
+/// Arguments of `frontier map build`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The bag, with scans and the transforms of odometry.
+    bag: PathBuf,
+    /// Where to write: FILE.yaml, the image and a picture with the way beside it.
+    #[arg(short, value_name = "FILE", default_value = "map")]
+    output: PathBuf,
+    /// The topic of the scans, instead of the one that is guessed.
+    #[arg(long, value_name = "TOPIC")]
+    scan_topic: Option<String>,
+    /// The robot's frame, instead of the one that is guessed.
+    #[arg(long, value_name = "FRAME")]
+    pose_frame: Option<String>,
+    /// Edge length of a cell, metres.
+    #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres)]
+    resolution: f64,
+    /// Readings beyond this only clear what lies before it, metres; the lidar's own limit
+    /// when left out.
+    #[arg(long, value_name = "M", value_parser = values::positive_metres)]
+    max_range: Option<f64>,
+    /// Believe odometry and match nothing: the picture before.
+    #[arg(long)]
+    odometry_only: bool,
+}
+
+/// Runs `frontier map build`.
+pub fn run(args: &Args) -> anyhow::Result<Outcome> {
+    let summary = bag::summary(&args.bag)?;
+    for problem in &summary.problems {
+        output::line(format_args!("warning: {problem}"))?;
+    }
+    let wanted =
+        Wanted { scan_topic: args.scan_topic.clone(), pose_frame: args.pose_frame.clone(), ..Wanted::default() };
+    let inputs = Inputs::of(&summary, &wanted)?;
+    let (Some(scans), Some(odom), Some(base)) = (&inputs.scan_topic, &inputs.odom_frame, &inputs.base_frame) else {
+        bail!("{}: {}", args.bag.display(), inputs.verdict().get(1).map_or("", String::as_str));
+    };
+    output::line(format_args!("scans on {scans}, odometry from {odom} to {base}"))?;
+    let mut config = BuilderConfig { is_matching: !args.odometry_only, ..BuilderConfig::default() };
+    config.mapper.resolution_m = args.resolution;
+    config.max_range_m = args.max_range.unwrap_or(f64::INFINITY);
+    let mut work = Work { builder: MapBuilder::new(config), way: Vec::new(), last: None, without_pose: 0 };
+    let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone())?;
+    let mut waiting = VecDeque::new();
+    while let Some(scan) = player.next_scan()? {
+        waiting.push_back(scan);
+        work.place(&mut waiting, &player, odom)?;
+    }
+    work.without_pose += waiting.len();
+    work.save(args)
+}
+
+struct Work {
+    builder: MapBuilder,
+    way: Vec<Point>,
+    last: Option<Pose>,
+    without_pose: usize,
+}
+
+impl Work {
+    /// Takes the scans in whose time tf has reached.
+    fn place(
+        &mut self,
+        waiting: &mut VecDeque<ScanMessage>,
+        player: &Player<std::fs::File>,
+        odom: &str,
+    ) -> anyhow::Result<()> {
+        while let Some(message) = waiting.front() {
+            let robot = player.robot_at(odom, message.scan.stamp_s);
+            match (robot, player.on_robot(message)) {
+                (Some(robot), Some((mount, scan))) => {
+                    let pose = self.builder.add(&robot, &mount, &scan)?;
+                    if self.way.last().is_none_or(|&last| pose.distance_to(last) > 0.05) {
+                        self.way.push(pose.position());
+                    }
+                    self.last = Some(pose);
+                }
+                _ if waiting.len() <= WAITING => return Ok(()),
+                _ => self.without_pose += 1,
+            }
+            waiting.pop_front();
+        }
+        Ok(())
+    }
+
+    fn save(&self, args: &Args) -> anyhow::Result<Outcome> {
+        let Some(grid) = self.builder.map()? else {
+            bail!("{}: tf has no place for any of its scans", args.bag.display());
+        };
+        let saved = save_map(&args.output, &grid, &SaveOptions::default())?;
+        let picture = Picture {
+            grid: &grid,
+            thresholds: &Thresholds::default(),
+            trajectory: &self.way,
+            start_in_map: None,
+            end_in_map: self.last,
+            goals: &[],
+            region: None,
+            theme: Theme::Clear,
+        };
+        let png = saved.yaml.with_extension("way.png");
+        write_atomic(&png, &picture.to_png()?).with_context(|| format!("cannot write {}", png.display()))?;
+        output::line(format_args!(
+            "{} scans taken in, {} of them placed by odometry alone, {} without a place in tf",
+            self.builder.taken, self.builder.unmatched, self.without_pose
+        ))?;
+        for file in [&saved.yaml, &saved.image, &png] {
+            output::line(format_args!("  {}", file.display()))?;
+        }
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,290 @@
+//! Which topics and frames of a bag are the explorer's inputs: as the user says, and else
+//! as their types and names tell.
+
+use crate::bag::{MessageType, Summary};
+use crate::tf::frame_name;
+use serde::Serialize;
+use std::collections::BTreeSet;
+
+/// What the user says; the rest is guessed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// The topic of the map.
+    pub map_topic: Option<String>,
+    /// The topic of the scans.
+    pub scan_topic: Option<String>,
+    /// The map's frame.
+    pub map_frame: Option<String>,
+    /// The robot's frame.
+    pub pose_frame: Option<String>,
+}
+
+/// A topic or a frame that a bag does not have.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum InputError {
+    /// No such topic.
+    #[error("the bag has no {kind} on {topic}: it has {known}")]
+    NoTopic {
+        /// As given.
+        topic: String,
+        /// The type that is needed.
+        kind: &'static str,
+        /// The topics of that type.
+        known: String,
+    },
+    /// No such frame.
+    #[error("tf in the bag has no frame {frame}: it has {known}")]
+    NoFrame {
+        /// As given.
+        frame: String,
+        /// All frames.
+        known: String,
+    },
+}
+
+/// The explorer's inputs in a bag.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Inputs {
+    /// `nav_msgs/OccupancyGrid`.
+    pub map_topic: Option<String>,
+    /// `map_msgs/OccupancyGridUpdate`, beside the map.
+    pub updates_topic: Option<String>,
+    /// `sensor_msgs/LaserScan`.
+    pub scan_topic: Option<String>,
+    /// `move_base_msgs/MoveBaseActionGoal` or `geometry_msgs/PoseStamped`: what the
+    /// recording was sent to.
+    pub goal_topic: Option<String>,
+    /// The map's frame; without a map, the one that odometry is in.
+    pub map_frame: Option<String>,
+    /// The robot's frame.
+    pub base_frame: Option<String>,
+    /// The frame that the wheels' odometry is in: `odom` above the robot, or the map's.
+    pub odom_frame: Option<String>,
+}
+
+impl Inputs {
+    /// Finds the inputs of a bag.
+    ///
+    /// # Errors
+    /// [`InputError`] when the bag does not have what the user says.
+    pub fn of(summary: &Summary, wanted: &Wanted) -> Result<Self, InputError> {
+        let frames = frames(summary);
+        let map_topic = match &wanted.map_topic {
+            Some(topic) => Some(given(summary, topic, MessageType::Map)?),
+            None => best(summary, MessageType::Map, map_rank),
+        };
+        let updates = map_topic.as_ref().map(|topic| format!("{topic}_updates"));
+        let updates_topic = updates.filter(|name| has(summary, name, MessageType::MapUpdate));
+        let scan_topic = match &wanted.scan_topic {
+            Some(topic) => Some(given(summary, topic, MessageType::Scan)?),
+            None => best(summary, MessageType::Scan, |_| Some(0)),
+        };
+        let goal_topic = best(summary, MessageType::Goal, |_| Some(0))
+            .or_else(|| best(summary, MessageType::Pose, |name| name.ends_with("goal").then_some(0)));
+        let map_frame = match &wanted.map_frame {
+            Some(frame) => Some(known(&frames, frame)?),
+            None => map_frame(summary, map_topic.as_deref()),
+        };
+        let base_frame = match &wanted.pose_frame {
+            Some(frame) => Some(known(&frames, frame)?),
+            None => map_frame.as_deref().and_then(|map| base_frame(summary, map)),
+        };
+        let odom_frame = base_frame.as_deref().and_then(|base| odom_frame(summary, base)).or_else(|| map_frame.clone());
+        Ok(Self { map_topic, updates_topic, scan_topic, goal_topic, map_frame, base_frame, odom_frame })
+    }
+
+    /// What can be done with them, a sentence each.
+    #[must_use]
+    pub fn verdict(&self) -> Vec<String> {
+        let mut says = Vec::new();
+        let replayed = match (&self.map_topic, &self.map_frame, &self.base_frame) {
+            (Some(map), Some(frame), Some(base)) => {
+                let updates = if self.updates_topic.is_some() { " with its updates" } else { "" };
+                format!("frontier replay: yes, with the map on {map}{updates} and the robot as {base} in {frame}")
+            }
+            (None, ..) => "frontier replay: no, there is no map".to_owned(),
+            _ => "frontier replay: no, tf has nothing that leads from the map to the robot".to_owned(),
+        };
+        says.push(replayed);
+        says.push(match (&self.scan_topic, &self.map_frame, &self.base_frame) {
+            (Some(scan), Some(_), Some(base)) => {
+                format!("frontier map build: yes, with the scans on {scan} and {base}")
+            }
+            (None, ..) => "frontier map build: no, there are no scans".to_owned(),
+            _ => "frontier map build: no, tf tells no odometry".to_owned(),
+        });
+        if let Some(goals) = &self.goal_topic {
+            says.push(format!("decisions are compared with the goals on {goals}"));
+        }
+        says
+    }
+}
+
+/// All frames that tf names.
+fn frames(summary: &Summary) -> BTreeSet<&str> {
+    summary.tf.iter().flat_map(|(child, link)| [child.as_str(), link.parent.as_str()]).collect()
+}
+
+fn known(frames: &BTreeSet<&str>, frame: &str) -> Result<String, InputError> {
+    let name = frame_name(frame);
+    if frames.contains(name) {
+        return Ok(name.to_owned());
+    }
+    Err(InputError::NoFrame { frame: frame.to_owned(), known: list(frames.iter().copied()) })
+}
+
+fn has(summary: &Summary, topic: &str, kind: MessageType) -> bool {
+    summary.topics_of(kind).iter().any(|t| t.topic == topic)
+}
+
+fn given(summary: &Summary, topic: &str, kind: MessageType) -> Result<String, InputError> {
+    let topics = summary.topics_of(kind);
+    let is_it = |name: &str| name == topic || name.trim_start_matches('/') == topic.trim_start_matches('/');
+    topics.iter().find(|t| is_it(&t.topic)).map(|t| t.topic.clone()).ok_or_else(|| InputError::NoTopic {
+        topic: topic.to_owned(),
+        kind: kind.name(),
+        known: list(topics.iter().map(|t| t.topic.as_str())),
+    })
+}
+
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<&str> = names.collect();
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// The topic of a type with the lowest rank, and among those the most messages.
+fn best(summary: &Summary, kind: MessageType, rank: impl Fn(&str) -> Option<u32>) -> Option<String> {
+    let topics = summary.topics_of(kind);
+    let ranked = topics.iter().filter_map(|t| rank(&t.topic).map(|rank| (rank, t)));
+    ranked.min_by_key(|(rank, _)| *rank).map(|(_, t)| t.topic.clone())
+}
+
+/// A map is called so; a costmap is none, unless there is nothing else.
+fn map_rank(topic: &str) -> Option<u32> {
+    let last = topic.rsplit('/').next().unwrap_or_default();
+    Some(match last {
+        "map" if topic == "/map" => 0,
+        "map" => 1,
+        _ if topic.contains("local_costmap") => return None,
+        _ if topic.contains("costmap") => 3,
+        _ => 2,
+    })
+}
+
+/// The frame in the map's headers; without a map, the root above `odom`, or `odom`.
+fn map_frame(summary: &Summary, map_topic: Option<&str>) -> Option<String> {
+    let headers = map_topic.and_then(|topic| summary.topics.iter().find(|t| t.topic == topic));
+    if let Some(frame) = headers.and_then(|t| t.frames.first()) {
+        return Some(frame_name(frame).to_owned());
+    }
+    let frames = frames(summary);
+    let odom = frames.iter().find(|name| name.rsplit('/').next() == Some("odom"));
+    if let Some(odom) = odom {
+        return Some((*odom).to_owned());
+    }
+    // The root of the tree with the most transforms.
+    let moving = summary.tf.iter().filter(|(_, link)| !link.is_static).max_by_key(|(_, link)| link.messages);
+    moving.map(|(child, _)| chain(summary, child).last().map_or(child.as_str(), |&root| root).to_owned())
+}
+
+/// The frames above one, the nearest first.
+fn chain<'a>(summary: &'a Summary, frame: &str) -> Vec<&'a str> {
+    let mut above = Vec::new();
+    let mut at = frame;
+    while let Some(link) = summary.tf.get(at) {
+        if above.len() > 64 {
+            break;
+        }
+        above.push(link.parent.as_str());
+        at = &link.parent;
+    }
+    above
+}
+
+/// The frame above the robot that is called `odom`.
+fn odom_frame(summary: &Summary, base_frame: &str) -> Option<String> {
+    let above = chain(summary, base_frame);
+    above.into_iter().find(|name| name.rsplit('/').next() == Some("odom")).map(str::to_owned)
+}
+
+/// The robot's frame: named as REP 105 has it, or the frame below the map in which most of
+/// the tree hangs.
+fn base_frame(summary: &Summary, map_frame: &str) -> Option<String> {
+    let below: Vec<&str> =
+        summary.tf.keys().map(String::as_str).filter(|name| chain(summary, name).contains(&map_frame)).collect();
+    for usual in ["base_footprint", "base_link", "base"] {
+        if let Some(found) = below.iter().find(|name| name.rsplit('/').next() == Some(usual)) {
+            return Some((*found).to_owned());
+        }
+    }
+    let moving = below.iter().filter(|name| summary.tf.get(**name).is_some_and(|link| !link.is_static));
+    moving.max_by_key(|name| (chain(summary, name).len(), std::cmp::Reverse(**name))).map(|name| (*name).to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bag::{FrameLink, TopicSummary};
+
+    fn summary() -> Summary {
+        let topic = |topic: &str, kind: MessageType, messages: u64, frame: &str| TopicSummary {
+            topic: topic.to_owned(),
+            kind: kind.name().to_owned(),
+            md5: kind.md5().to_owned(),
+            messages,
+            frames: [frame.to_owned()].into(),
+            ..TopicSummary::default()
+        };
+        let link = |parent: &str, is_static| FrameLink { parent: parent.to_owned(), is_static, messages: 10 };
+        Summary {
+            topics: vec![
+                topic("/move_base/global_costmap/costmap", MessageType::Map, 99, "map"),
+                topic("/robot/map", MessageType::Map, 5, "/world"),
+                topic("/robot/map_updates", MessageType::MapUpdate, 50, "/world"),
+                topic("/robot/scan", MessageType::Scan, 500, "laser"),
+            ],
+            tf: [
+                ("odom".to_owned(), link("world", false)),
+                ("robot/base_link".to_owned(), link("odom", false)),
+                ("laser".to_owned(), link("robot/base_link", true)),
+            ]
+            .into(),
+            ..Summary::default()
+        }
+    }
+
+    #[test]
+    fn inputs_are_guessed_by_type_and_name() {
+        let inputs = Inputs::of(&summary(), &Wanted::default()).unwrap();
+        let expected = Inputs {
+            map_topic: Some("/robot/map".into()),
+            updates_topic: Some("/robot/map_updates".into()),
+            scan_topic: Some("/robot/scan".into()),
+            goal_topic: None,
+            map_frame: Some("world".into()),
+            base_frame: Some("robot/base_link".into()),
+            odom_frame: Some("odom".into()),
+        };
+        assert_eq!(inputs, expected);
+        assert!(inputs.verdict()[0].starts_with("frontier replay: yes"));
+    }
+
+    #[test]
+    fn what_is_given_must_be_there() {
+        let wanted = Wanted { map_topic: Some("/map".into()), ..Wanted::default() };
+        let error = Inputs::of(&summary(), &wanted).unwrap_err().to_string();
+        assert!(error.starts_with("the bag has no nav_msgs/OccupancyGrid on /map: it has "), "{error}");
+        let wanted = Wanted { pose_frame: Some("base".into()), ..Wanted::default() };
+        let error = Inputs::of(&summary(), &wanted).unwrap_err().to_string();
+        assert_eq!(error, "tf in the bag has no frame base: it has laser, odom, robot/base_link, world");
+    }
+
+    #[test]
+    fn without_a_map_odometry_is_the_frame() {
+        let mut scans = summary();
+        scans.topics.retain(|t| t.topic.ends_with("scan"));
+        let inputs = Inputs::of(&scans, &Wanted::default()).unwrap();
+        assert_eq!((inputs.map_frame.as_deref(), inputs.map_topic.is_none()), (Some("odom"), true));
+        assert!(inputs.verdict()[1].starts_with("frontier map build: yes"));
+    }
+}
