@@ -4,7 +4,7 @@
 //! `exp(-d^2 / (2 sigma^2))` of the distance to the nearest occupied cell.
 
 use crate::geometry::Point;
-use crate::grid::{Cell, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells_within};
+use crate::grid::{Cell, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells};
 
 /// Distances beyond this many cells are all the same.
 const REACH_CELLS: u32 = 12;
@@ -26,7 +26,7 @@ impl LikelihoodField {
     pub fn of(grid: &OccupancyGrid) -> Self {
         let thresholds = Thresholds::default();
         let is_occupied = |index: usize| grid.data().get(index).is_some_and(|&v| v >= thresholds.occupied_min);
-        Self { info: *grid.info(), squares: squared_distance_cells_within(grid.info(), REACH_CELLS, is_occupied) }
+        Self { info: *grid.info(), squares: squared_distance_cells(grid.info(), is_occupied) }
     }
 
     /// The likelihoods for a standard deviation in metres.
