@@ -60,7 +60,9 @@ pub fn match_scan(field: &LikelihoodField, points_in_body: &[Point], prior: &Pri
         pose = search(field, blur, points_in_body, prior, pose, grid);
     }
     let refined = refine(field, &last, points_in_body, prior, pose);
-    if goodness(field, &last, points_in_body, prior, &refined) >= goodness(field, &last, points_in_body, prior, &pose) {
+    // Compared between the cells: within one, the grids' own measure is the same everywhere.
+    let between = |pose: &Pose| smooth_mean(field, &last, points_in_body, pose) - PRIOR_WEIGHT * prior.penalty(pose);
+    if between(&refined) >= between(&pose) {
         pose = refined;
     }
     Match { pose, likelihood: mean(field, &last, points_in_body, &pose) }
@@ -70,6 +72,12 @@ fn mean(field: &LikelihoodField, blur: &Blur, points: &[Point], pose: &Pose) -> 
     let (sin, cos) = pose.yaw.sin_cos();
     let there = |p: &Point| Point::new(pose.x + cos * p.x - sin * p.y, pose.y + sin * p.x + cos * p.y);
     points.iter().map(|p| field.at(blur, there(p))).sum::<f64>() / points.len().max(1) as f64
+}
+
+fn smooth_mean(field: &LikelihoodField, blur: &Blur, points: &[Point], pose: &Pose) -> f64 {
+    let (sin, cos) = pose.yaw.sin_cos();
+    let there = |p: &Point| Point::new(pose.x + cos * p.x - sin * p.y, pose.y + sin * p.x + cos * p.y);
+    points.iter().map(|p| field.smooth(blur, there(p)).0).sum::<f64>() / points.len().max(1) as f64
 }
 
 fn goodness(field: &LikelihoodField, blur: &Blur, points: &[Point], prior: &Prior, pose: &Pose) -> f64 {
