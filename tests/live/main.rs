@@ -27,7 +27,10 @@ const CHILD: &str = "FRONTIER_LIVE_TEST";
 const SPEED: f64 = 8.0;
 const SOON: Duration = Duration::from_secs(20);
 
-const TESTS: &[(&str, fn(&World))] = &[
+/// A test by its name.
+type Test = (&'static str, fn(&World));
+
+const TESTS: &[Test] = &[
     ("explores_a_house_saves_its_map_and_leaves", explores_a_house),
     ("shows_frontiers_goals_and_status", shows_what_it_does),
     ("sigterm_stops_the_robot_and_saves_the_map", sigterm),

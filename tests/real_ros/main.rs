@@ -20,7 +20,10 @@ const SOON: Duration = Duration::from_secs(30);
 /// Messages are generated for C++, Python and Lisp.
 const BUILD: Duration = Duration::from_secs(300);
 
-const TESTS: &[(&str, fn(&Stage))] = &[
+/// A test by its name.
+type Test = (&'static str, fn(&Stage));
+
+const TESTS: &[Test] = &[
     ("a_stack_of_real_parts_is_explored", real_parts),
     ("rosnode_kill_and_rostopic_and_rosparam_work", tools),
     ("rosbag_records_a_run", rosbag),
