@@ -10,7 +10,7 @@
 //! constant of a copy. A map of another size starts over.
 
 use super::clusters::{Clusters, FrontierCells};
-use super::reach::Reach;
+use super::reach::{Changed, Reach};
 use super::regroup::Regroup;
 use super::shifts::neighbours_of_row;
 use super::tiles::Tiling;
@@ -32,8 +32,8 @@ pub struct Incremental {
     changed: Vec<(usize, Range<usize>)>,
     /// Tiles whose territory or reach changed.
     stale: Vec<bool>,
-    /// Tiles whose reach changed.
-    reach_changed: Vec<bool>,
+    /// Of each tile, where its reach changed.
+    reach_changed: Vec<Changed>,
     /// Tiles with other frontier cells than before.
     regroup: Vec<bool>,
     /// The smallest number of cells of the frontiers found; `None` if all are to be found
@@ -95,7 +95,6 @@ impl Incremental {
             Reachability::WallsBlock => self.planes.free(),
             Reachability::Textbook => &self.open,
         };
-        self.reach_changed.fill(false);
         self.reach.update(plane, &self.seeds, &mut self.reach_changed);
         self.mark_stale();
         self.find_frontier_cells();
@@ -123,7 +122,7 @@ impl Incremental {
             + self.groups.memory_bytes()
             + self.changed.capacity() * size_of::<(usize, Range<usize>)>()
             + self.stale.capacity()
-            + self.reach_changed.capacity()
+            + self.reach_changed.capacity() * size_of::<Changed>()
             + self.regroup.capacity()
             + self.row.capacity() * size_of::<u64>()
             + self.seeds.capacity() * size_of::<Cell>()
@@ -171,10 +170,11 @@ impl Incremental {
         }
         self.reach.reset(width, height);
         self.tiling = Tiling::new(self.frontier.row_words(), height);
-        for flags in [&mut self.stale, &mut self.reach_changed, &mut self.regroup] {
+        for flags in [&mut self.stale, &mut self.regroup] {
             flags.clear();
             flags.resize(self.tiling.len(), true);
         }
+        self.reach_changed.resize(self.tiling.len(), Changed::default());
         self.row.resize(self.frontier.row_words(), 0);
         self.min_cells = None;
     }
@@ -208,8 +208,9 @@ impl Incremental {
             Reachability::Textbook => &[(0, 0)],
             Reachability::WallsBlock => &[(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)],
         };
-        for tile in (0..self.tiling.len()).filter(|&tile| self.reach_changed[tile]) {
-            for near in beside.iter().filter_map(|&offset| self.tiling.beside(tile, offset)) {
+        for (tile, changed) in self.reach_changed.iter().enumerate().filter(|(_, changed)| changed.any) {
+            let touched = beside.iter().filter(|&&offset| changed.touches(offset));
+            for near in touched.filter_map(|&offset| self.tiling.beside(tile, offset)) {
                 self.stale[near] = true;
             }
         }

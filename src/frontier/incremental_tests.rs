@@ -21,13 +21,21 @@ enum Change {
     Rescale { resolution_m: f64 },
 }
 
+/// A place near a seam of tiles or words, or before all.
+fn near_seam(length: usize) -> impl Strategy<Value = usize> {
+    let seam = prop_oneof![Just(0), Just(length), Just(2 * length), (1usize..9).prop_map(|word| word * 64)];
+    (seam, -2isize..3).prop_map(|(seam, off)| seam.saturating_add_signed(off))
+}
+
+/// Rectangles anywhere, and such with their sides at the seams of tiles and words.
 fn rect() -> impl Strategy<Value = CellRect> {
-    (0usize..620, 0usize..150, 1usize..300, 1usize..90).prop_map(|(x, y, width, height)| CellRect {
-        x,
-        y,
-        width,
-        height,
-    })
+    let anywhere = (0usize..620, 0usize..150, 1usize..300, 1usize..90);
+    let between = |a: usize, b: usize| (a.min(b), a.abs_diff(b).max(1));
+    let at_seams = (near_seam(256), near_seam(256), near_seam(64), near_seam(64)).prop_map(move |(x0, x1, y0, y1)| {
+        let ((x, width), (y, height)) = (between(x0, x1), between(y0, y1));
+        (x, y, width, height)
+    });
+    prop_oneof![anywhere, at_seams].prop_map(|(x, y, width, height)| CellRect { x, y, width, height })
 }
 
 fn change() -> impl Strategy<Value = Change> {
@@ -88,12 +96,13 @@ fn apply(grid: &mut OccupancyGrid, change: &Change) -> Option<CellRect> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(96))]
+    #![proptest_config(ProptestConfig::with_cases(512))]
 
     #[test]
     fn each_update_gives_what_detection_from_scratch_gives(
-        (width, height) in (1u32..600, 1u32..140),
-        steps in proptest::collection::vec((change(), any::<prop::sample::Index>(), any::<bool>()), 1..12),
+        (width, height) in prop_oneof![(1u32..600, 1u32..140), (300u32..600, 70u32..140)],
+        first in prop_oneof![Just(-1i8), Just(0i8)],
+        steps in proptest::collection::vec((change(), any::<prop::sample::Index>(), any::<bool>()), 1..16),
         textbook: bool, eight: bool, min_size_m in 0.0f64..4.0,
     ) {
         let params = DetectorParams {
@@ -102,7 +111,7 @@ proptest! {
             min_size_m,
             ..DetectorParams::default()
         };
-        let mut grid = OccupancyGrid::filled(GridInfo::new(width, height, 1.0, Pose::default()).unwrap(), -1);
+        let mut grid = OccupancyGrid::filled(GridInfo::new(width, height, 1.0, Pose::default()).unwrap(), first);
         let mut kept = Incremental::new(params);
         for (change, robot, tell) in steps {
             let rect = apply(&mut grid, &change);

@@ -5,6 +5,31 @@ use super::tiles::{Tile, Tiling, node_of};
 use super::union_find::{root_of, unite};
 use crate::grid::{BitPlane, Cell, Neighbourhood};
 
+/// Where in a tile other cells are reached than before.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Changed {
+    /// Anywhere.
+    pub any: bool,
+    /// In its lowest row.
+    pub below: bool,
+    /// In its highest row.
+    pub above: bool,
+    /// In its first column.
+    pub left: bool,
+    /// In its last column.
+    pub right: bool,
+}
+
+impl Changed {
+    /// Whether cells of a tile so many columns and rows on lie beside one that changed, as
+    /// far as can be told from the sides.
+    pub const fn touches(self, (columns, rows): (isize, isize)) -> bool {
+        self.any
+            && (columns == 0 || if columns > 0 { self.right } else { self.left })
+            && (rows == 0 || if rows > 0 { self.above } else { self.below })
+    }
+}
+
 /// The connections of a plane and what of it is reached.
 #[derive(Clone, Debug)]
 pub(super) struct Reach {
@@ -77,9 +102,9 @@ impl Reach {
     }
 
     /// Finds again what is connected to any of the seeds in the plane, which must be as it
-    /// was but for the words touched. Marks the tiles of which other cells are reached
-    /// than before.
-    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut [bool]) {
+    /// was but for the words touched. Tells of each tile where in it other cells are
+    /// reached than before.
+    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut [Changed]) {
         self.label_rims(plane);
         self.join_tiles(plane);
         self.connect();
@@ -89,9 +114,8 @@ impl Reach {
             let nodes = self.first_node[tile] as usize..self.first_node[tile + 1] as usize;
             let written = self.first_written[tile] as usize..self.first_written[tile + 1] as usize;
             let same = self.reached[nodes] == self.written[written];
-            if self.dirty[tile] || inner || self.has_inner[tile] || !same {
-                *changed |= self.write(plane, tile);
-            }
+            let is_same = same && !(self.dirty[tile] || inner || self.has_inner[tile]);
+            *changed = if is_same { Changed::default() } else { self.write(plane, tile) };
             self.has_inner[tile] = inner;
         }
         self.dirty.fill(false);
@@ -182,15 +206,14 @@ impl Reach {
                 }
             }
         }
-        // A root comes before its set.
+        // A parent comes before its children, and so knows its root's answer already.
         for node in 0..self.parents.len() {
-            let root = root_of(&mut self.parents, node as u32);
-            self.reached[node] = self.reached[root as usize];
+            self.reached[node] = self.reached[self.parents[node] as usize];
         }
     }
 
-    /// Writes the reached cells of a tile; whether any is another than before.
-    fn write(&mut self, plane: &BitPlane, tile: usize) -> bool {
+    /// Writes the reached cells of a tile.
+    fn write(&mut self, plane: &BitPlane, tile: usize) -> Changed {
         let window = self.tiling.window(tile);
         self.labels.label(plane, &window, self.neighbourhood);
         self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
@@ -200,11 +223,18 @@ impl Reach {
             Some(node) => reached[first + usize::from(node)],
             None => inner.contains(&(tile, component)),
         };
-        let mut changed = false;
+        let mut changed = Changed::default();
         labels.select(plane, &window, is_kept, |y, i, word| {
             let target = &mut target.row_mut(y)[i];
-            changed |= *target != word;
+            let differs = *target ^ word;
             *target = word;
+            if differs != 0 {
+                changed.any = true;
+                changed.below |= y == window.rows.start;
+                changed.above |= y + 1 == window.rows.end;
+                changed.left |= i == window.words.start && differs & 1 != 0;
+                changed.right |= i + 1 == window.words.end && differs >> 63 != 0;
+            }
         });
         changed
     }
@@ -231,3 +261,7 @@ fn pair(tiles: &mut [Tile], first: usize, second: usize) -> (&mut Tile, &Tile) {
     let (before, after) = tiles.split_at_mut(second);
     (&mut before[first], &after[0])
 }
+
+#[cfg(test)]
+#[path = "reach_tests.rs"]
+mod tests;
