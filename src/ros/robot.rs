@@ -16,6 +16,7 @@ use crate::robot::{
     Command, CommandId, MapSnapshot, Navigation, NavigationState, Observation, PoseError, Robot, RobotError,
 };
 use crate::scan::LaserScan;
+use std::mem::Discriminant;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -92,8 +93,8 @@ pub struct RosRobot {
     map_is_new: bool,
     latencies_ms: Vec<f64>,
     pose: Option<Pose>,
-    /// Where the robot is was not known in the last observation.
-    is_lost: bool,
+    /// Why the robot's place was not known in the last observation.
+    trouble: Option<Discriminant<PoseError>>,
     /// A map and the robot's place in it have been known.
     has_begun: bool,
 }
@@ -121,7 +122,7 @@ impl RosRobot {
             map_is_new: false,
             latencies_ms: Vec::new(),
             pose: None,
-            is_lost: false,
+            trouble: None,
             has_begun: false,
         }
     }
@@ -230,16 +231,17 @@ impl RosRobot {
         let frame = self.map.as_ref().map_or("map", |known| known.received.frame.as_str());
         let RosRobotConfig { base_frame, transform_tolerance_s, .. } = &self.config;
         let pose = self.parts.transforms.robot(frame, base_frame, ros_s, *transform_tolerance_s);
+        let trouble = pose.as_ref().err().map(std::mem::discriminant);
         match &pose {
             Ok(pose) => self.pose = Some(*pose),
-            // Its age changes with every look: once is enough.
-            Err(error) if !self.is_lost => self.node.log().warn(error),
+            // An age changes with every look: each kind of trouble is told once.
+            Err(error) if self.trouble != trouble => self.node.log().warn(error),
             Err(_) => {}
         }
-        if self.is_lost && pose.is_ok() {
+        if self.trouble.is_some() && trouble.is_none() {
             self.node.log().info("the robot's place is known again");
         }
-        self.is_lost = pose.is_err();
+        self.trouble = trouble;
         pose
     }
 
