@@ -27,7 +27,7 @@ pub struct Log {
 }
 
 impl Log {
-    /// A log to the terminal alone, until [`Log::connect`].
+    /// A log to the terminal alone, until the node has connected.
     #[must_use]
     pub fn new(name: &str) -> Self {
         Self { name: name.into(), rosout: Arc::default(), last: Arc::default() }
