@@ -174,6 +174,8 @@ fn rosbag(stage: &Stage) {
     explore.expect_code(0, DEADLINE);
     record.signal("INT");
     record.wait(SOON);
+    // The recorder is a child of `rosbag`, and closes its bag in its own time.
+    eventually(SOON, || bag.exists(), || record.log());
     let info = stage.output(&format!("rosbag info -y {}", bag.display()));
     for topic in topics.split(' ') {
         assert!(info.contains(&format!("topic: {topic}\n")), "{topic} is not in\n{info}");
