@@ -1,10 +1,11 @@
 //! Runs of set bits and the connected components that they form.
 //!
 //! Two-pass labelling by runs: He, Chao and Suzuki, "A Run-Based Two-Scan Labeling
-//! Algorithm" (IEEE Transactions on Image Processing 2008), over a union-find whose
-//! root is always the smallest index, with path halving (Tarjan and van Leeuwen, JACM
-//! 1984). O(words + runs), up to a factor that grows as the inverse Ackermann function.
+//! Algorithm" (IEEE Transactions on Image Processing 2008), over the union-find of
+//! [`union_find`]. O(words + runs), up to a factor that grows as the inverse Ackermann
+//! function.
 
+use super::union_find;
 use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
 use std::ops::Range;
 
@@ -16,8 +17,6 @@ pub(super) struct Run {
     /// One past the last column.
     pub end: u32,
 }
-
-impl Run {}
 
 /// The runs of a plane in row-major order, each with the component it belongs to. The
 /// buffers are kept from one plane to the next.
@@ -103,13 +102,12 @@ impl Runs {
         let mut candidates = &pairs[above.clone()];
         let mut candidate = above.start as u32;
         for (&[start, end], i) in pairs[row.clone()].iter().zip(row.start as u32..) {
-            let mut root = i;
-            component.push(root);
+            component.push(i);
             while let [[above_start, above_end], rest @ ..] = candidates
                 && *above_start < end + margin
             {
                 if above_end + margin > start {
-                    root = unite(component, root, candidate);
+                    union_find::unite(component, i, candidate);
                 }
                 // A run above that goes on beyond this one may touch the next too.
                 if *above_end > end {
@@ -119,28 +117,6 @@ impl Runs {
                 candidate += 1;
             }
         }
-    }
-}
-
-/// Unites the component of root `a` with that of run `b`; the new root.
-#[inline]
-fn unite(component: &mut [u32], a: u32, b: u32) -> u32 {
-    let b = root_of(component, b);
-    let (low, high) = (a.min(b), a.max(b));
-    component[high as usize] = low;
-    low
-}
-
-#[inline]
-fn root_of(component: &mut [u32], mut run: u32) -> u32 {
-    loop {
-        let parent = component[run as usize];
-        if parent == run {
-            return run;
-        }
-        let grandparent = component[parent as usize];
-        component[run as usize] = grandparent;
-        run = grandparent;
     }
 }
 

@@ -1,13 +1,13 @@
-//! Lets rosrust find the message definitions: those of other packages in `msg/vendor/`,
-//! and our own, which it expects in a folder named like their package.
+//! Lets rosrust find the message definitions: those of other packages in `vendor/`, and our
+//! own, which it expects in a folder named like their package.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
-    let (own, vendored) = (root.join("msg"), root.join("msg/vendor"));
+    let own = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
+    let vendored = own.join("vendor");
     let staged = PathBuf::from(env::var("OUT_DIR")?).join("messages");
     let folder = staged.join("frontier_explorer/msg");
     fs::create_dir_all(&folder)?;
