@@ -31,8 +31,8 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("bag", FLOORS_0_TO_2),
     // Scans become a map by the simulator's mapper.
     ("mapping", FLOORS_0_TO_2_IO_AND_SIM),
-    // A recording behind the port.
-    ("replay", FLOORS_0_TO_2_IO_AND_BAG),
+    // A recording behind the port; where it lacks a map, one is made of its scans.
+    ("replay", REPLAY),
     // The nodes: sim_node is the simulator behind ROS.
     ("ros", FLOORS_0_TO_2_IO_AND_SIM),
 ];
@@ -59,7 +59,7 @@ const DOWNWARDS: &[&str; 15] = &[
 const FLOORS_0_TO_2: &[&str] = DOWNWARDS.split_at(13).0;
 const FLOORS_0_TO_2_AND_IO: &[&str] = DOWNWARDS.split_at(14).0;
 const FLOORS_0_TO_2_IO_AND_SIM: &[&str] = DOWNWARDS;
-const FLOORS_0_TO_2_IO_AND_BAG: &[&str] = &[
+const REPLAY: &[&str] = &[
     "range",
     "geometry",
     "scan",
@@ -75,6 +75,7 @@ const FLOORS_0_TO_2_IO_AND_BAG: &[&str] = &[
     "config",
     "io",
     "bag",
+    "mapping",
 ];
 
 /// Rooms of floors 0 to 2, in which no clock is read.

@@ -77,6 +77,11 @@ impl Compression {
     }
 }
 
+/// What a chunk of more than the most bytes gives.
+pub(super) fn too_long() -> io::Error {
+    io::Error::other(format!("it holds more than {MAX_CHUNK_BYTES} bytes"))
+}
+
 /// Reads to the end in steps, so that what came before an error is kept.
 fn copy(input: &mut dyn Read, out: &mut Vec<u8>) -> io::Result<()> {
     let mut buffer = [0; 1 << 16];
@@ -88,7 +93,7 @@ fn copy(input: &mut dyn Read, out: &mut Vec<u8>) -> io::Result<()> {
             Err(error) => return Err(error),
         };
         if out.len() as u64 + count as u64 > MAX_CHUNK_BYTES {
-            return Err(io::Error::other(format!("it holds more than {MAX_CHUNK_BYTES} bytes")));
+            return Err(too_long());
         }
         out.extend_from_slice(buffer.get(..count).unwrap_or_default());
     }

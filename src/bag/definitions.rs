@@ -19,6 +19,8 @@ pub enum MessageType {
     Path,
     /// `move_base_msgs/MoveBaseActionGoal`.
     Goal,
+    /// `move_base_msgs/MoveBaseActionResult`.
+    Result,
     /// `rosgraph_msgs/Clock`.
     Clock,
     /// `visualization_msgs/MarkerArray`; only written.
@@ -27,7 +29,7 @@ pub enum MessageType {
 
 impl MessageType {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Map,
         Self::MapUpdate,
         Self::Transforms,
@@ -36,6 +38,7 @@ impl MessageType {
         Self::Pose,
         Self::Path,
         Self::Goal,
+        Self::Result,
         Self::Clock,
         Self::Markers,
     ];
@@ -52,6 +55,7 @@ impl MessageType {
             Self::Pose => "geometry_msgs/PoseStamped",
             Self::Path => "nav_msgs/Path",
             Self::Goal => "move_base_msgs/MoveBaseActionGoal",
+            Self::Result => "move_base_msgs/MoveBaseActionResult",
             Self::Clock => "rosgraph_msgs/Clock",
             Self::Markers => "visualization_msgs/MarkerArray",
         }
@@ -69,6 +73,7 @@ impl MessageType {
             Self::Pose => "d3812c3cbc69362b77dc0b19b345f8f5",
             Self::Path => "6227e2b7e9cce15051f669a5e197bbf7",
             Self::Goal => "660d6895a1b9a16dce51fbdd9a64a56b",
+            Self::Result => "1eb06eeff08fa7ea874431638cb52332",
             Self::Clock => "a9c97c1d230cfc112e270351a944ee47",
             Self::Markers => "d155b9ce5188fbaf89745847fd5882d7",
         }
@@ -91,11 +96,11 @@ impl MessageType {
     /// The definition with all that it uses, as a bag holds it.
     #[must_use]
     pub fn definition(self) -> String {
-        let mut text = source(self.name()).to_owned();
+        let mut text = source(self.name()).unwrap_or_default().to_owned();
         let mut used = Vec::new();
         collect(self.name(), &mut used);
         for name in used {
-            text += &format!("\n{}\nMSG: {name}\n{}", "=".repeat(80), source(&name));
+            text += &format!("\n{}\nMSG: {name}\n{}", "=".repeat(80), source(&name).unwrap_or_default());
         }
         text
     }
@@ -104,7 +109,7 @@ impl MessageType {
 /// The types that a definition uses, each once.
 fn collect(name: &str, used: &mut Vec<String>) {
     let package = name.split('/').next().unwrap_or_default();
-    for line in source(name).lines() {
+    for line in source(name).unwrap_or_default().lines() {
         let line = line.split('#').next().unwrap_or_default().trim();
         let Some(field) = line.split_whitespace().next() else { continue };
         let field = field.split('[').next().unwrap_or_default();
@@ -113,16 +118,16 @@ fn collect(name: &str, used: &mut Vec<String>) {
             _ if field.contains('/') => field.to_owned(),
             _ => format!("{package}/{field}"),
         };
-        if !source(&full).is_empty() && !used.contains(&full) {
+        if source(&full).is_some() && !used.contains(&full) {
             used.push(full.clone());
             collect(&full, used);
         }
     }
 }
 
-/// The fields of a type; empty for what is none of `msg/vendor`.
-fn source(name: &str) -> &'static str {
-    SOURCES.iter().find(|(known, _)| *known == name).map_or("", |(_, text)| text)
+/// The fields of a type, if it is one of `msg/vendor`.
+fn source(name: &str) -> Option<&'static str> {
+    SOURCES.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
 }
 
 macro_rules! sources {
@@ -136,6 +141,7 @@ macro_rules! sources {
 
 const SOURCES: &[(&str, &str)] = sources![
     "actionlib_msgs" / "GoalID",
+    "actionlib_msgs" / "GoalStatus",
     "geometry_msgs" / "Point",
     "geometry_msgs" / "Pose",
     "geometry_msgs" / "PoseStamped",
@@ -148,7 +154,9 @@ const SOURCES: &[(&str, &str)] = sources![
     "geometry_msgs" / "Vector3",
     "map_msgs" / "OccupancyGridUpdate",
     "move_base_msgs" / "MoveBaseActionGoal",
+    "move_base_msgs" / "MoveBaseActionResult",
     "move_base_msgs" / "MoveBaseGoal",
+    "move_base_msgs" / "MoveBaseResult",
     "nav_msgs" / "MapMetaData",
     "nav_msgs" / "OccupancyGrid",
     "nav_msgs" / "Odometry",
@@ -178,6 +186,7 @@ mod tests {
 
     #[test]
     fn a_definition_holds_all_that_it_uses_once() {
+        assert!(MessageType::Result.definition().contains("MSG: move_base_msgs/MoveBaseResult\n"), "without fields");
         let text = MessageType::Goal.definition();
         for name in ["std_msgs/Header", "actionlib_msgs/GoalID", "geometry_msgs/Quaternion"] {
             assert_eq!(text.matches(&format!("MSG: {name}\n")).count(), 1, "{name}");

@@ -117,6 +117,15 @@ pub fn goal_message(header: &Header, id: &str, pose: &Pose) -> Vec<u8> {
     Out::default().header(header).time(header.stamp).text(id).header(header).pose(pose).done()
 }
 
+/// A `move_base_msgs/MoveBaseActionResult`; the status is a number of
+/// `actionlib_msgs/GoalStatus`.
+#[must_use]
+pub fn result_message(header: &Header, id: &str, status: u8, text: &str) -> Vec<u8> {
+    let mut out = Out::default();
+    out.header(header).time(header.stamp).text(id).0.push(status);
+    out.text(text).done()
+}
+
 /// A `nav_msgs/Path`.
 #[must_use]
 pub fn path_message(header: &Header, poses: &[Pose]) -> Vec<u8> {

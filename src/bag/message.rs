@@ -70,7 +70,7 @@ pub struct Odometry {
 }
 
 impl Cursor<'_> {
-    fn header(&mut self) -> Result<Header, Malformed> {
+    pub(super) fn header(&mut self) -> Result<Header, Malformed> {
         Ok(Header { seq: self.u32("seq")?, stamp: self.time("stamp")?, frame: self.text("frame_id")? })
     }
 
@@ -185,7 +185,8 @@ pub fn scan(bytes: &[u8]) -> Result<ScanMessage, Malformed> {
     cursor.f32("scan_time")?;
     let (range_min, range_max) = (cursor.f32("range_min")?, cursor.f32("range_max")?);
     let count = cursor.count(4, "ranges")?;
-    let ranges_m: Vec<f32> = (0..count).map(|_| cursor.f32("ranges")).collect::<Result<_, _>>()?;
+    let (ranges, _) = cursor.take(4 * count as u64, "ranges")?.as_chunks::<4>();
+    let ranges_m: Vec<f32> = ranges.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
     let numbers = [angle_min, angle_increment, range_min, range_max];
     if !numbers.iter().all(|number| number.is_finite()) {
         return Err(Malformed::Wrong(format!("a scan with angles or limits that are not finite: {numbers:?}")));
@@ -218,20 +219,8 @@ pub fn pose(bytes: &[u8]) -> Result<StampedPose, Malformed> {
     stamped(&mut Cursor::new(bytes))
 }
 
-fn stamped(cursor: &mut Cursor<'_>) -> Result<StampedPose, Malformed> {
+pub(super) fn stamped(cursor: &mut Cursor<'_>) -> Result<StampedPose, Malformed> {
     Ok(StampedPose { header: cursor.header()?, pose: cursor.pose()? })
-}
-
-/// The target of a `move_base_msgs/MoveBaseActionGoal`.
-///
-/// # Errors
-/// [`Malformed`] when it is cut, or its pose no numbers.
-pub fn goal(bytes: &[u8]) -> Result<StampedPose, Malformed> {
-    let mut cursor = Cursor::new(bytes);
-    cursor.header()?;
-    cursor.time("goal_id.stamp")?;
-    cursor.text("goal_id.id")?;
-    stamped(&mut cursor)
 }
 
 /// The poses of a `nav_msgs/Path`.

@@ -5,30 +5,38 @@
 //! [`std::io::Seek`]. Whatever the bytes say, nothing panics, hangs or takes more memory
 //! than a chunk and an index: lengths are believed only as far as bytes are there.
 
+mod action;
 mod chunk;
+mod connections;
+mod content;
 mod cursor;
 mod definitions;
 mod encode;
+mod input;
 mod message;
 mod playback;
+mod problems;
 mod reader;
 mod record;
 mod summary;
 mod writer;
 
+pub use action::{GoalMessage, ResultMessage, goal, result};
 pub use chunk::{Compression, MAX_CHUNK_BYTES};
+pub use connections::Connection;
+pub use content::{Chunk, ChunkMessage};
 pub use cursor::Malformed;
 pub use definitions::MessageType;
 pub use encode::{
     clock_message, goal_message, map_message, marker_message, odometry_message, path_message, pose_message,
-    scan_message, tf_message,
+    result_message, scan_message, tf_message,
 };
 pub use message::{
-    Header, MapMessage, Odometry, PatchMessage, ScanMessage, StampedPose, clock, goal, header, map, odometry, patch,
-    path, pose, scan, transforms,
+    Header, MapMessage, Odometry, PatchMessage, ScanMessage, StampedPose, clock, header, map, odometry, patch, path,
+    pose, scan, transforms,
 };
 pub use playback::{Playback, PlayedMessage};
-pub use reader::{BagError, BagReader, Chunk, ChunkMessage, Connection};
+pub use reader::{BagError, BagReader};
 pub use summary::{ChunkPlace, FrameLink, Summary, TopicSummary};
 pub use writer::BagWriter;
 

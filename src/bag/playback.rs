@@ -3,7 +3,9 @@
 //! In the file they stand as they were written, and chunks can overlap: a chunk is opened
 //! when the times that it begins with have come.
 
-use super::reader::{BagReader, Chunk, Connection};
+use super::connections::Connection;
+use super::content::Chunk;
+use super::reader::BagReader;
 use super::summary::{ChunkPlace, Summary};
 use super::{BagError, Nanos};
 use std::io::{Read, Seek};

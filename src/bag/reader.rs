@@ -1,25 +1,19 @@
 //! A bag from its first byte to its last, one chunk at a time: the index is not needed.
 //!
 //! So a bag that is still being written, or was cut, is read as far as it goes. A chunk
-//! that is damaged gives what comes before the damage. What was wrong is told by
-//! [`BagReader::problems`].
+//! that is damaged gives what comes before the damage, and behind a damaged record it goes
+//! on with the next chunk. What was wrong is told by [`BagReader::problems`].
 
-use super::Nanos;
 use super::chunk::{Compression, MAX_CHUNK_BYTES};
-use super::cursor::{Cursor, Malformed};
+use super::connections::{Connection, Connections, MAX_DEFINITION_BYTES};
+use super::content::Chunk;
+use super::input::{Input, Record};
+use super::problems::Problems;
 use super::record::{Fields, MAGIC, op};
 use std::collections::BTreeMap;
-use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::ops::Range;
+use std::io::{self, Read, Seek};
 use std::sync::Arc;
 
-/// A record's header is shorter than this: the longest holds a topic's name.
-const MAX_HEADER_BYTES: u32 = 1 << 20;
-/// The most connections, and the most bytes of their definitions, that are kept.
-const MAX_CONNECTIONS: usize = 10_000;
-const MAX_DEFINITION_BYTES: usize = 32 << 20;
-/// The most problems that are told apart.
-const MAX_PROBLEMS: usize = 20;
 /// Messages outside of chunks are handed over in lots of this size.
 const LOT_BYTES: usize = 1 << 20;
 
@@ -37,95 +31,12 @@ pub enum BagError {
     NoBag,
 }
 
-/// A topic as one publisher published it.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Connection {
-    /// The topic's name.
-    pub topic: String,
-    /// The type, such as `nav_msgs/OccupancyGrid`.
-    pub kind: String,
-    /// The sum over the type's definition.
-    pub md5: String,
-    /// The type's definition, with those that it uses.
-    pub definition: String,
-    /// Who published it, if that was recorded.
-    pub caller: String,
-    /// Whether late subscribers get the last message.
-    pub is_latching: bool,
-}
-
-/// A message of a chunk.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ChunkMessage {
-    /// The connection's number.
-    pub connection: u32,
-    /// When it was recorded.
-    pub time: Nanos,
-    range: Range<usize>,
-}
-
-/// The messages of a chunk. Kept and filled again, it needs memory once.
-#[derive(Debug, Default)]
-pub struct Chunk {
-    /// Where its record begins in the file.
-    pub offset: u64,
-    /// How it was compressed.
-    pub compression: Compression,
-    /// Its length in the file, bytes.
-    pub packed_bytes: u64,
-    /// Its messages in the order of the file.
-    pub messages: Vec<ChunkMessage>,
-    bytes: Vec<u8>,
-}
-
-impl Chunk {
-    /// The bytes of one of its messages.
-    #[must_use]
-    pub fn data(&self, message: &ChunkMessage) -> &[u8] {
-        self.bytes.get(message.range.clone()).unwrap_or_default()
-    }
-
-    /// Its length without compression, bytes.
-    #[must_use]
-    pub const fn len(&self) -> usize {
-        self.bytes.len()
-    }
-
-    /// Whether it holds nothing.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.bytes.is_empty()
-    }
-
-    fn clear(&mut self, offset: u64) {
-        *self = Self {
-            messages: std::mem::take(&mut self.messages),
-            bytes: std::mem::take(&mut self.bytes),
-            offset,
-            ..Self::default()
-        };
-        self.messages.clear();
-        self.bytes.clear();
-    }
-}
-
-/// A record's header, and where its data lies.
-struct Record {
-    offset: u64,
-    header: Vec<u8>,
-    /// As claimed.
-    data_bytes: u64,
-}
-
 /// Reads a bag.
 pub struct BagReader<R> {
-    input: BufReader<R>,
-    length: u64,
-    at: u64,
+    input: Input<R>,
     is_indexed: bool,
-    connections: BTreeMap<u32, Arc<Connection>>,
-    definition_bytes: usize,
-    problems: Vec<String>,
+    connections: Connections,
+    problems: Problems,
 }
 
 impl<R: Read + Seek> BagReader<R> {
@@ -133,40 +44,31 @@ impl<R: Read + Seek> BagReader<R> {
     ///
     /// # Errors
     /// [`BagError`] when this is no bag, or one of another format.
-    pub fn new(mut input: R) -> Result<Self, BagError> {
-        let length = input.seek(SeekFrom::End(0))?;
-        input.rewind()?;
-        let mut this = Self {
-            input: BufReader::with_capacity(1 << 16, input),
-            length,
-            at: 0,
-            is_indexed: false,
-            connections: BTreeMap::new(),
-            definition_bytes: 0,
-            problems: Vec::new(),
-        };
+    pub fn new(input: R) -> Result<Self, BagError> {
+        let mut input = Input::new(input)?;
         let mut first = Vec::new();
-        this.read_up_to(MAGIC.len() as u64, &mut first)?;
+        input.read_up_to(MAGIC.len() as u64, &mut first)?;
         if first != MAGIC {
-            this.read_up_to(8, &mut first)?;
+            input.read_up_to(8, &mut first)?;
             let line = String::from_utf8_lossy(&first);
             let version = line.strip_prefix("#ROS").and_then(|rest| rest.split(['V', 'v']).nth(1));
             let version = version.map(|v| v.split(char::is_whitespace).next().unwrap_or_default().to_owned());
             return Err(version.filter(|v| v != "2.0").map_or(BagError::NoBag, BagError::Version));
         }
-        Ok(this)
+        let (connections, problems) = (Connections::default(), Problems::default());
+        Ok(Self { input, is_indexed: false, connections, problems })
     }
 
     /// The file's length, bytes.
     #[must_use]
     pub const fn length(&self) -> u64 {
-        self.length
+        self.input.length
     }
 
     /// Up to where it has been read, bytes.
     #[must_use]
     pub const fn position(&self) -> u64 {
-        self.at
+        self.input.at
     }
 
     /// Whether the bag was closed properly: its header names an index.
@@ -178,18 +80,18 @@ impl<R: Read + Seek> BagReader<R> {
     /// The connections seen so far, by their numbers.
     #[must_use]
     pub const fn connections(&self) -> &BTreeMap<u32, Arc<Connection>> {
-        &self.connections
+        &self.connections.known
     }
 
     /// What was wrong so far, a sentence each.
     #[must_use]
     pub fn problems(&self) -> &[String] {
-        &self.problems
+        self.problems.all()
     }
 
     /// Takes over connections that were read before.
     pub(super) fn know(&mut self, connections: &BTreeMap<u32, Arc<Connection>>) {
-        self.connections.clone_from(connections);
+        self.connections = Connections::known(connections);
     }
 
     /// Goes to a chunk whose place is known.
@@ -197,7 +99,7 @@ impl<R: Read + Seek> BagReader<R> {
     /// # Errors
     /// When the file cannot be read.
     pub fn seek(&mut self, offset: u64) -> io::Result<()> {
-        self.go_to(offset.min(self.length))
+        self.input.go_to(offset)
     }
 
     /// Reads the next chunk; false at the end, wherever that is.
@@ -205,19 +107,26 @@ impl<R: Read + Seek> BagReader<R> {
     /// # Errors
     /// When the file cannot be read; damage is no error.
     pub fn next_chunk(&mut self, chunk: &mut Chunk) -> io::Result<bool> {
-        chunk.clear(self.at);
-        loop {
-            let Some(record) = self.record()? else { return Ok(!chunk.messages.is_empty()) };
+        chunk.clear(self.input.at);
+        while self.input.left() > 0 {
+            let offset = self.input.at;
+            let Some(record) = self.input.record()? else {
+                self.go_on_behind(offset)?;
+                continue;
+            };
             let fields = Fields::new(&record.header);
             match fields.op() {
                 Some(op::CHUNK) if !chunk.messages.is_empty() => {
-                    self.go_to(record.offset)?;
+                    self.input.go_to(offset)?;
                     return Ok(true);
                 }
                 Some(op::CHUNK) => {
-                    chunk.clear(record.offset);
+                    chunk.clear(offset);
                     self.expand(&record, chunk)?;
-                    self.parse(chunk);
+                    let is_whole = chunk.parse(&mut self.connections, &mut self.problems);
+                    if !is_whole && self.input.left() > 0 {
+                        self.problems.tell(format!("the chunk at byte {offset} ends within a message"));
+                    }
                     if !chunk.messages.is_empty() {
                         return Ok(true);
                     }
@@ -225,211 +134,88 @@ impl<R: Read + Seek> BagReader<R> {
                 // A recording under way has its last messages outside of a chunk.
                 Some(op::MESSAGE) => {
                     self.loose_message(&record, chunk)?;
-                    if chunk.bytes.len() >= LOT_BYTES {
+                    if chunk.len() >= LOT_BYTES {
                         return Ok(true);
                     }
                 }
                 Some(op::CONNECTION) => {
                     let mut data = Vec::new();
-                    self.read_up_to(record.data_bytes.min(MAX_DEFINITION_BYTES as u64), &mut data)?;
-                    self.connection(&fields, &data);
-                    self.skip_to_end_of(&record)?;
+                    self.input.read_up_to(record.data_bytes.min(MAX_DEFINITION_BYTES as u64), &mut data)?;
+                    self.connections.take(&fields, &data, &mut self.problems);
+                    self.skip(&record)?;
                 }
                 Some(op::BAG_HEADER) => {
                     self.is_indexed =
-                        fields.u64("index_pos").is_ok_and(|at| at > MAGIC.len() as u64 && at <= self.length);
-                    self.skip_to_end_of(&record)?;
+                        fields.u64("index_pos").is_ok_and(|at| at > MAGIC.len() as u64 && at <= self.input.length);
+                    self.skip(&record)?;
                 }
-                Some(op::INDEX | op::CHUNK_INFO) => self.skip_to_end_of(&record)?,
-                _ => {
-                    self.stop(record.offset);
-                    return Ok(!chunk.messages.is_empty());
-                }
+                Some(op::INDEX | op::CHUNK_INFO) => self.skip(&record)?,
+                _ => self.go_on_behind(offset)?,
             }
         }
-    }
-
-    /// The next record's header; `None` at the end of what can be read.
-    fn record(&mut self) -> io::Result<Option<Record>> {
-        let offset = self.at;
-        if offset >= self.length {
-            return Ok(None);
-        }
-        let mut bytes = Vec::new();
-        self.read_up_to(4, &mut bytes)?;
-        let header_bytes = Cursor::new(&bytes).u32("a record").unwrap_or(u32::MAX);
-        let is_possible = header_bytes <= MAX_HEADER_BYTES && u64::from(header_bytes) + 4 <= self.length - self.at;
-        let mut header = Vec::new();
-        bytes.clear();
-        if is_possible {
-            self.read_up_to(u64::from(header_bytes), &mut header)?;
-            self.read_up_to(4, &mut bytes)?;
-        }
-        match Cursor::new(&bytes).u32("a record") {
-            Ok(data_bytes) => Ok(Some(Record { offset, header, data_bytes: u64::from(data_bytes) })),
-            Err(_) => {
-                self.stop(offset);
-                Ok(None)
-            }
-        }
+        Ok(!chunk.messages.is_empty())
     }
 
     /// The data of a chunk, without its compression.
     fn expand(&mut self, record: &Record, chunk: &mut Chunk) -> io::Result<()> {
+        let offset = record.offset;
         let fields = Fields::new(&record.header);
         let claimed = fields.u32("size").map_or(0, u64::from);
         let name = fields.text("compression");
         let Some(compression) = Compression::from_name(&name) else {
-            self.problem(format!(
-                "the chunk at byte {} is compressed by {name:?}: must be none, bz2 or lz4",
-                record.offset
-            ));
-            return self.skip_to_end_of(record);
+            self.problems
+                .tell(format!("the chunk at byte {offset} is compressed by {name:?}: must be none, bz2 or lz4"));
+            return self.skip(record);
         };
         // The sizes are filled in when a chunk is closed: this one was not.
         let is_open = record.data_bytes == 0 && claimed == 0;
         if is_open && compression == Compression::None {
             return Ok(());
         }
-        let left = self.length - self.at;
+        let left = self.input.left();
         let is_cut = record.data_bytes > left;
-        let packed_bytes = if is_open { left } else { record.data_bytes.min(left) };
         if is_cut {
-            self.problem(format!("the bag is cut at byte {}, within a chunk", self.length));
+            self.problems.tell(format!("the bag is cut at byte {}, within a chunk", self.input.length));
         } else if is_open {
-            self.problem("the bag ends in a chunk that was not closed".to_owned());
+            self.problems.tell("the bag ends in a chunk that was not closed".to_owned());
         }
         chunk.compression = compression;
-        chunk.packed_bytes = packed_bytes;
-        let from = self.at;
-        let mut packed = (&mut self.input).take(packed_bytes);
-        let expanded = compression.expand(&mut packed, &mut chunk.bytes);
-        let unread = packed.limit();
-        self.at = from + packed_bytes - unread;
-        self.go_to(from + packed_bytes)?;
-        match expanded {
+        chunk.packed_bytes = if is_open { left } else { record.data_bytes.min(left) };
+        match self.input.expand(compression, chunk.packed_bytes, &mut chunk.bytes)? {
             // A file that got shorter is found out by its missing bytes.
             Err(error) if !(is_cut || is_open) => {
-                self.problem(format!("the chunk at byte {} cannot be unpacked to its end: {error}", record.offset));
+                self.problems.tell(format!("the chunk at byte {offset} cannot be unpacked to its end: {error}"));
             }
-            Ok(()) if !(is_cut || is_open) && chunk.bytes.len() as u64 != claimed => self.problem(format!(
-                "the chunk at byte {} holds {} bytes: its header says {claimed}",
-                record.offset,
-                chunk.bytes.len()
-            )),
+            Ok(()) if !(is_cut || is_open) && chunk.len() as u64 != claimed => self
+                .problems
+                .tell(format!("the chunk at byte {offset} holds {} bytes: its header says {claimed}", chunk.len())),
             _ => {}
         }
         Ok(())
     }
 
-    /// Finds the messages of a chunk's bytes.
-    fn parse(&mut self, chunk: &mut Chunk) {
-        let bytes = std::mem::take(&mut chunk.bytes);
-        let mut cursor = Cursor::new(&bytes);
-        while !cursor.is_empty() {
-            let Ok((header, data)) = record_of(&mut cursor) else {
-                let is_cut = self.at >= self.length;
-                if !is_cut {
-                    self.problem(format!("the chunk at byte {} ends within a message", chunk.offset));
-                }
-                break;
-            };
-            let fields = Fields::new(header);
-            match fields.op() {
-                Some(op::MESSAGE) => {
-                    let end = bytes.len() - cursor.left();
-                    self.message(&fields, end - data.len()..end, &mut chunk.messages);
-                }
-                Some(op::CONNECTION) => self.connection(&fields, data),
-                _ => {}
-            }
-        }
-        chunk.bytes = bytes;
-    }
-
     fn loose_message(&mut self, record: &Record, chunk: &mut Chunk) -> io::Result<()> {
-        if record.data_bytes > (self.length - self.at).min(MAX_CHUNK_BYTES) {
-            self.stop(record.offset);
-            return self.go_to(self.length);
+        if record.data_bytes > self.input.left().min(MAX_CHUNK_BYTES) {
+            return self.go_on_behind(record.offset);
         }
-        let start = chunk.bytes.len();
-        self.read_up_to(record.data_bytes, &mut chunk.bytes)?;
-        chunk.packed_bytes = self.at - chunk.offset;
-        self.message(&Fields::new(&record.header), start..chunk.bytes.len(), &mut chunk.messages);
+        let start = chunk.len();
+        self.input.read_up_to(record.data_bytes, &mut chunk.bytes)?;
+        chunk.packed_bytes = self.input.at - chunk.offset;
+        chunk.push(&Fields::new(&record.header), start, &self.connections, &mut self.problems);
         Ok(())
     }
 
-    fn message(&mut self, fields: &Fields<'_>, range: Range<usize>, messages: &mut Vec<ChunkMessage>) {
-        let (Ok(connection), Ok(time)) = (fields.u32("conn"), fields.time("time")) else {
-            self.problem("a message without connection or time is left out".to_owned());
-            return;
-        };
-        if self.connections.contains_key(&connection) {
-            messages.push(ChunkMessage { connection, time, range });
-        } else {
-            self.problem(format!("messages of connection {connection}, which nothing describes, are left out"));
-        }
+    /// Goes behind a record, or behind the damage if it claims more than there is.
+    fn skip(&mut self, record: &Record) -> io::Result<()> {
+        if record.end() > self.input.length { self.go_on_behind(record.offset) } else { self.input.go_to(record.end()) }
     }
 
-    fn connection(&mut self, fields: &Fields<'_>, data: &[u8]) {
-        let Ok(number) = fields.u32("conn") else { return };
-        if self.connections.contains_key(&number) {
-            return;
-        }
-        let described = Fields::new(data);
-        let definition = described.text("message_definition");
-        self.definition_bytes += definition.len();
-        if self.connections.len() >= MAX_CONNECTIONS || self.definition_bytes > MAX_DEFINITION_BYTES {
-            self.problem(format!("only the first {} connections are read", self.connections.len()));
-            return;
-        }
-        let connection = Connection {
-            topic: fields.text("topic"),
-            kind: described.text("type"),
-            md5: described.text("md5sum"),
-            definition,
-            caller: described.text("callerid"),
-            is_latching: described.get("latching") == Some(b"1"),
-        };
-        self.connections.insert(number, Arc::new(connection));
+    /// Goes on with the next chunk behind a record that cannot be read.
+    fn go_on_behind(&mut self, damaged: u64) -> io::Result<()> {
+        let next = self.input.find_chunk(damaged + 1)?;
+        let to = next.unwrap_or(self.input.length);
+        let lost = to - damaged.min(to);
+        self.problems.tell(format!("the bag is cut or damaged at byte {damaged}: {lost} bytes are not read"));
+        self.input.go_to(to)
     }
-
-    /// Nothing from here on can be read.
-    fn stop(&mut self, offset: u64) {
-        let left = self.length - offset.min(self.length);
-        self.problem(format!("the bag is cut or damaged at byte {offset}: {left} bytes are not read"));
-        self.at = self.length;
-    }
-
-    fn problem(&mut self, problem: String) {
-        if self.problems.len() < MAX_PROBLEMS && !self.problems.contains(&problem) {
-            self.problems.push(problem);
-        }
-    }
-
-    fn skip_to_end_of(&mut self, record: &Record) -> io::Result<()> {
-        let end = record.offset + 8 + record.header.len() as u64 + record.data_bytes;
-        if end > self.length {
-            self.stop(record.offset);
-            return Ok(());
-        }
-        self.go_to(end)
-    }
-
-    fn go_to(&mut self, offset: u64) -> io::Result<()> {
-        let by = offset as i64 - self.at as i64;
-        self.input.seek_relative(by)?;
-        self.at = offset;
-        Ok(())
-    }
-
-    /// Appends the next bytes, fewer at the end of the file.
-    fn read_up_to(&mut self, count: u64, out: &mut Vec<u8>) -> io::Result<()> {
-        self.at += (&mut self.input).take(count).read_to_end(out)? as u64;
-        Ok(())
-    }
-}
-
-fn record_of<'a>(cursor: &mut Cursor<'a>) -> Result<(&'a [u8], &'a [u8]), Malformed> {
-    Ok((cursor.block("a record's header")?, cursor.block("a record's data")?))
 }

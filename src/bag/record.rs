@@ -36,6 +36,17 @@ impl<'a> Fields<'a> {
         Self { bytes }
     }
 
+    /// Whether these are fields from the first byte to the last.
+    pub fn are_whole(&self) -> bool {
+        let mut cursor = Cursor::new(self.bytes);
+        while !cursor.is_empty() {
+            if !cursor.block("a field").is_ok_and(|field| field.contains(&b'=')) {
+                return false;
+            }
+        }
+        true
+    }
+
     /// A field by its name.
     pub fn get(&self, name: &str) -> Option<&'a [u8]> {
         let mut cursor = Cursor::new(self.bytes);

@@ -1,9 +1,11 @@
 //! What a bag holds, found by looking through all of it once.
 
 use super::chunk::Compression;
+use super::connections::Connection;
+use super::content::Chunk;
 use super::definitions::MessageType;
 use super::message;
-use super::reader::{BagReader, Chunk, Connection};
+use super::reader::BagReader;
 use super::{BagError, Nanos, seconds};
 use crate::tf::frame_name;
 use serde::Serialize;

@@ -62,6 +62,7 @@ fn decode_all(bytes: &[u8]) -> Result<(Summary, u64), BagError> {
             Some(MessageType::Transforms) => drop(transforms(data)),
             Some(MessageType::Scan) => drop(scan(data)),
             Some(MessageType::Goal) => drop(goal(data)),
+            Some(MessageType::Result) => drop(result(data)),
             Some(MessageType::Path) => drop(path(data)),
             Some(MessageType::Pose) => drop(pose(data)),
             Some(MessageType::Odometry) => drop(odometry(data)),
@@ -113,7 +114,10 @@ fn messages_come_back() {
     let same = |a: Pose, b: Pose| a.distance_to(b.position()) < 1e-12 && (a.yaw - b.yaw).abs() < 1e-12;
     assert_eq!(header(&pose_message(&header_in, &there)), Ok(header_in.clone()));
     assert!(same(pose(&pose_message(&header_in, &there)).unwrap().pose, there));
-    assert!(same(goal(&goal_message(&header_in, "a", &there)).unwrap().pose, there));
+    let sent = goal(&goal_message(&header_in, "a", &there)).unwrap();
+    assert!(sent.id == "a" && same(sent.target.pose, there));
+    let told = result(&result_message(&header_in, "a", 3, "reached")).unwrap();
+    assert_eq!((told.header, told.id, told.status, told.text), (header_in.clone(), "a".into(), 3, "reached".into()));
     assert_eq!(path(&path_message(&header_in, &[there, there])).unwrap().1.len(), 2);
     assert_eq!(clock(&clock_message(nanos(3.25))), Ok(3_250_000_000));
     let twist = crate::geometry::Twist::new(0.1, 0.2);
@@ -194,5 +198,23 @@ fn cuts_and_flips_do_no_harm() {
             let held: u64 = summary.compression.values().map(|(_, _, raw)| raw).sum();
             assert!(held < 4 << 20, "a small bag stays small: {held} bytes");
         }
+    }
+}
+
+#[test]
+fn behind_a_damaged_record_the_next_chunk_is_read() {
+    // Enough for several chunks, without compression; the second chunk's header is struck.
+    let bytes = recorded(Compression::None, 4000);
+    let (whole, count) = decode_all(&bytes).unwrap();
+    assert!(whole.chunks.len() >= 3, "{}", whole.chunks.len());
+    let struck = whole.chunks[1].offset as usize;
+    for (at, value) in [(struck, 0xff), (struck + 3, 0x7f), (struck + 8, b'x')] {
+        let mut damaged = bytes.clone();
+        damaged[at] = value;
+        let (summary, read) = decode_all(&damaged).unwrap();
+        assert_eq!(summary.chunks.len(), whole.chunks.len() - 1, "byte {at}");
+        assert!(read < count && read > count / 2, "{read} of {count} messages");
+        let said = format!("at byte {struck}");
+        assert!(summary.problems.iter().any(|problem| problem.contains(&said)), "{:?}", summary.problems);
     }
 }

@@ -3,8 +3,8 @@
 //! <http://wiki.ros.org/Bags/Format/2.0>
 
 use super::chunk::Compression;
+use super::connections::Connection;
 use super::definitions::MessageType;
-use super::reader::Connection;
 use super::record::{MAGIC, op, put_field, put_record, put_u32, time_bytes};
 use super::{MAX_CHUNK_BYTES, Nanos};
 use std::collections::BTreeMap;

@@ -5,8 +5,9 @@ use crate::robot::{Observation, Robot, RobotError};
 
 /// Looks on while a run goes on: records, progress bars, publishers.
 pub trait Watcher<R> {
-    /// Called before each step; what the user has changed meanwhile can be told here.
-    fn before_step(&mut self, _explorer: &mut Explorer, _observation: &Observation) {}
+    /// Called before each step; what was changed meanwhile, by the user or
+    /// by a recording, can be told here.
+    fn before_step(&mut self, _robot: &R, _explorer: &mut Explorer, _observation: &Observation) {}
 
     /// Called after each step, before the command goes out.
     fn after_step(&mut self, robot: &R, explorer: &Explorer, observation: &Observation, decision: &Decision);
@@ -26,7 +27,7 @@ pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl 
             Err(error) => return explorer.end_now(reason_of(&error), now_s, &error.to_string()),
         };
         now_s = observation.stamp_s;
-        watcher.before_step(explorer, &observation);
+        watcher.before_step(robot, explorer, &observation);
         let decision = explorer.step(&observation);
         watcher.after_step(robot, explorer, &observation, &decision);
         if let Err(error) = robot.command(&decision.command) {

@@ -7,6 +7,7 @@ mod builder;
 mod field;
 mod matcher;
 
+pub use crate::sim::MapperError;
 pub use builder::{BuilderConfig, MapBuilder};
 pub use field::LikelihoodField;
 pub use matcher::{Match, Prior, match_scan};

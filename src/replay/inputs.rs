@@ -54,6 +54,8 @@ pub struct Inputs {
     /// `move_base_msgs/MoveBaseActionGoal` or `geometry_msgs/PoseStamped`: what the
     /// recording was sent to.
     pub goal_topic: Option<String>,
+    /// `move_base_msgs/MoveBaseActionResult`, beside the goals: how they ended.
+    pub results_topic: Option<String>,
     /// The map's frame; without a map, the one that odometry is in.
     pub map_frame: Option<String>,
     /// The robot's frame.
@@ -81,6 +83,9 @@ impl Inputs {
         };
         let goal_topic = best(summary, MessageType::Goal, |_| Some(0))
             .or_else(|| best(summary, MessageType::Pose, |name| name.ends_with("goal").then_some(0)));
+        let results = goal_topic.as_deref().and_then(|goals| goals.strip_suffix("/goal"));
+        let results_topic =
+            results.map(|server| format!("{server}/result")).filter(|name| has(summary, name, MessageType::Result));
         let map_frame = match &wanted.map_frame {
             Some(frame) => Some(known(&frames, frame)?),
             None => map_frame(summary, map_topic.as_deref()),
@@ -90,19 +95,34 @@ impl Inputs {
             None => map_frame.as_deref().and_then(|map| base_frame(summary, map)),
         };
         let odom_frame = base_frame.as_deref().and_then(|base| odom_frame(summary, base)).or_else(|| map_frame.clone());
-        Ok(Self { map_topic, updates_topic, scan_topic, goal_topic, map_frame, base_frame, odom_frame })
+        Ok(Self { map_topic, updates_topic, scan_topic, goal_topic, results_topic, map_frame, base_frame, odom_frame })
+    }
+
+    /// Leaves the recorded map out: one is made of the scans, in the frame of odometry.
+    pub fn forget_map(&mut self) {
+        (self.map_topic, self.updates_topic) = (None, None);
+        self.map_frame.clone_from(&self.odom_frame);
+    }
+
+    /// Whether there is enough for a replay.
+    #[must_use]
+    pub const fn can_replay(&self) -> bool {
+        (self.map_topic.is_some() || self.scan_topic.is_some()) && self.map_frame.is_some() && self.base_frame.is_some()
     }
 
     /// What can be done with them, a sentence each.
     #[must_use]
     pub fn verdict(&self) -> Vec<String> {
         let mut says = Vec::new();
-        let replayed = match (&self.map_topic, &self.map_frame, &self.base_frame) {
-            (Some(map), Some(frame), Some(base)) => {
+        let replayed = match (&self.map_topic, &self.scan_topic, &self.map_frame, &self.base_frame) {
+            (Some(map), _, Some(frame), Some(base)) => {
                 let updates = if self.updates_topic.is_some() { " with its updates" } else { "" };
                 format!("frontier replay: yes, with the map on {map}{updates} and the robot as {base} in {frame}")
             }
-            (None, ..) => "frontier replay: no, there is no map".to_owned(),
+            (None, Some(scan), Some(frame), Some(base)) => format!(
+                "frontier replay: yes, with a map made of the scans on {scan}, and the robot as {base} in {frame}"
+            ),
+            (None, None, ..) => "frontier replay: no, there is neither a map nor a scan".to_owned(),
             _ => "frontier replay: no, tf has nothing that leads from the map to the robot".to_owned(),
         };
         says.push(replayed);
@@ -210,15 +230,17 @@ fn odom_frame(summary: &Summary, base_frame: &str) -> Option<String> {
 /// The robot's frame: named as REP 105 has it, or the frame below the map in which most of
 /// the tree hangs.
 fn base_frame(summary: &Summary, map_frame: &str) -> Option<String> {
-    let below: Vec<&str> =
-        summary.tf.keys().map(String::as_str).filter(|name| chain(summary, name).contains(&map_frame)).collect();
+    let root = |frame: &str| chain(summary, frame).last().map_or_else(|| frame.to_owned(), |&root| root.to_owned());
+    let tree = root(map_frame);
+    let names: Vec<&str> = summary.tf.keys().map(String::as_str).filter(|name| root(name) == tree).collect();
     for usual in ["base_footprint", "base_link", "base"] {
-        if let Some(found) = below.iter().find(|name| name.rsplit('/').next() == Some(usual)) {
+        if let Some(found) = names.iter().find(|name| name.rsplit('/').next() == Some(usual)) {
             return Some((*found).to_owned());
         }
     }
-    let moving = below.iter().filter(|name| summary.tf.get(**name).is_some_and(|link| !link.is_static));
-    moving.max_by_key(|name| (chain(summary, name).len(), std::cmp::Reverse(**name))).map(|name| (*name).to_owned())
+    let below = names.into_iter().filter(|name| chain(summary, name).contains(&map_frame));
+    let moving = below.filter(|name| summary.tf.get(*name).is_some_and(|link| !link.is_static));
+    moving.max_by_key(|name| (chain(summary, name).len(), std::cmp::Reverse(*name))).map(str::to_owned)
 }
 
 #[cfg(test)]
@@ -242,6 +264,8 @@ mod tests {
                 topic("/robot/map", MessageType::Map, 5, "/world"),
                 topic("/robot/map_updates", MessageType::MapUpdate, 50, "/world"),
                 topic("/robot/scan", MessageType::Scan, 500, "laser"),
+                topic("/robot/move_base/goal", MessageType::Goal, 5, ""),
+                topic("/robot/move_base/result", MessageType::Result, 5, ""),
             ],
             tf: [
                 ("odom".to_owned(), link("world", false)),
@@ -260,7 +284,8 @@ mod tests {
             map_topic: Some("/robot/map".into()),
             updates_topic: Some("/robot/map_updates".into()),
             scan_topic: Some("/robot/scan".into()),
-            goal_topic: None,
+            goal_topic: Some("/robot/move_base/goal".into()),
+            results_topic: Some("/robot/move_base/result".into()),
             map_frame: Some("world".into()),
             base_frame: Some("robot/base_link".into()),
             odom_frame: Some("odom".into()),

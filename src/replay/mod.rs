@@ -1,10 +1,17 @@
 //! A recording behind the port that the explorer knows: the very pipeline of the node, at
 //! the time of a bag (the rim).
 
+mod agreement;
+mod goals;
 mod inputs;
 mod player;
 mod robot;
+mod scans;
+mod told;
 
+pub use agreement::{Agreement, Parting, RecordedSight};
+pub use goals::{GoalEnd, RecordedGoal, RecordedGoals};
 pub use inputs::{InputError, Inputs, Wanted};
-pub use player::{Player, RecordedGoal, Tap};
+pub use player::{PlayError, Player, Tap};
 pub use robot::BagRobot;
+pub use scans::ScanMapping;

@@ -1,15 +1,17 @@
 //! What is known at a moment of a recording: map, frames, newest scan, goals.
 
 use super::Inputs;
-use crate::bag::{
-    BagError, MessageType, Nanos, Playback, PlayedMessage, ScanMessage, Summary, goal, map, nanos, patch, pose, scan,
-    seconds, transforms,
-};
+use super::goals::RecordedGoals;
+use super::scans::{ScanMapping, on_robot};
+use super::told::Told;
+use crate::bag::{BagError, Nanos, Playback, PlayedMessage, ScanMessage, StampedPose, Summary, nanos, seconds};
 use crate::geometry::Pose;
 use crate::grid::OccupancyGrid;
+use crate::mapping::{BuilderConfig, MapperError};
 use crate::robot::{MapSnapshot, PoseError};
 use crate::scan::LaserScan;
-use crate::tf::{TransformBuffer, frame_name, is_upside_down, planar, upright};
+
+use crate::tf::{TransformBuffer, TransformSample, frame_name, planar, upright};
 use std::io::{Read, Seek};
 use std::sync::Arc;
 
@@ -17,19 +19,23 @@ use std::sync::Arc;
 const HISTORY_S: f64 = 10.0;
 /// A transform that is older than this is not believed, seconds.
 const TOLERANCE_S: f64 = 0.5;
+/// From one map that is made of scans to the next, seconds at the least.
+const MAP_PERIOD_S: f64 = 1.0;
 /// Headers of another clock than the recorder's differ by more than this, seconds.
 const CLOCKS_DIFFER_S: f64 = 5.0;
 
 /// Is handed every message as it is played.
 pub type Tap = Box<dyn FnMut(&PlayedMessage<'_>)>;
 
-/// A goal that the recording was sent to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RecordedGoal {
-    /// When, seconds of the bag.
-    pub time_s: f64,
-    /// Where to, in the map frame.
-    pub goal_in_map: Pose,
+/// Why a recording cannot be played on.
+#[derive(Debug, thiserror::Error)]
+pub enum PlayError {
+    /// The file.
+    #[error(transparent)]
+    Bag(#[from] BagError),
+    /// The map that is made of its scans.
+    #[error("cannot make a map of the scans: {0}")]
+    Map(#[from] MapperError),
 }
 
 /// Plays a bag and keeps what it says.
@@ -41,7 +47,9 @@ pub struct Player<R> {
     offset_s: Option<f64>,
     map: Option<MapSnapshot>,
     scan: Option<ScanMessage>,
-    goals: Vec<RecordedGoal>,
+    goals: RecordedGoals,
+    /// Makes the map where the recording has none.
+    mapping: Option<ScanMapping>,
     malformed: u64,
     tap: Option<Tap>,
 }
@@ -54,12 +62,13 @@ impl<R: Read + Seek> Player<R> {
     pub fn new(input: R, summary: &Summary, inputs: Inputs) -> Result<Self, BagError> {
         Ok(Self {
             playback: Playback::new(input, summary)?,
+            goals: RecordedGoals::new(inputs.results_topic.is_some()),
+            mapping: None,
             inputs,
             transforms: TransformBuffer::new(HISTORY_S),
             offset_s: None,
             map: None,
             scan: None,
-            goals: Vec::new(),
             malformed: 0,
             tap: None,
         })
@@ -70,101 +79,131 @@ impl<R: Read + Seek> Player<R> {
         self.tap = Some(tap);
     }
 
-    /// Plays all messages up to a time in seconds; false when none is left after it.
+    /// Makes a map of the scans from now on, and does not look at recorded ones. Without
+    /// odometry there will be none.
+    pub fn map_scans(&mut self, config: BuilderConfig) {
+        self.mapping = ScanMapping::new(config, &self.inputs);
+        self.inputs.forget_map();
+    }
+
+    /// Plays all messages up to a time in seconds, but no further than a map or a result:
+    /// those wake the node too. The time that was reached.
     ///
     /// # Errors
-    /// [`BagError`] when the bag cannot be read.
-    pub fn play_to(&mut self, until_s: f64) -> Result<bool, BagError> {
+    /// [`PlayError`] when the bag cannot be read, or mapped.
+    pub fn play_to(&mut self, until_s: f64) -> Result<f64, PlayError> {
         let until = nanos(until_s);
-        loop {
-            match self.playback.peek()? {
-                None => return Ok(false),
-                Some(time) if time > until => return Ok(true),
-                Some(_) => self.play_one()?,
+        while let Some(time) = self.playback.peek()?.filter(|&time| time <= until) {
+            if self.play_one()? {
+                return Ok(seconds(time));
             }
         }
+        Ok(until_s)
     }
 
-    /// Plays on to the next scan, and takes it; `None` at the end.
+    /// When the next message was recorded, seconds; `None` at the end.
     ///
     /// # Errors
-    /// [`BagError`] when the bag cannot be read.
-    pub fn next_scan(&mut self) -> Result<Option<ScanMessage>, BagError> {
-        self.scan = None;
-        while self.playback.peek()?.is_some() {
-            self.play_one()?;
-            if let Some(scan) = self.scan.take() {
-                return Ok(Some(scan));
-            }
-        }
-        Ok(None)
+    /// [`PlayError`] when the bag cannot be read.
+    pub fn next_time_s(&mut self) -> Result<Option<f64>, PlayError> {
+        Ok(self.playback.peek()?.map(seconds))
     }
 
-    fn play_one(&mut self) -> Result<(), BagError> {
-        let Some(message) = self.playback.next_message()? else { return Ok(()) };
+    /// Plays one message; whether it is news that the node would wake for.
+    fn play_one(&mut self) -> Result<bool, PlayError> {
+        let Some(message) = self.playback.next_message()? else { return Ok(false) };
         if let Some(tap) = &mut self.tap {
             tap(&message);
         }
-        let PlayedMessage { connection, time, data } = message;
-        let (topic, time_s) = (Some(&connection.topic), seconds(time));
-        let is_understood = match MessageType::of(&connection.kind, &connection.md5) {
-            Some(MessageType::Transforms) => take_transforms(
-                &mut self.transforms,
-                &mut self.offset_s,
-                connection.topic.ends_with("tf_static"),
-                time,
-                data,
-            ),
-            Some(MessageType::Map) if topic == self.inputs.map_topic.as_ref() => match map(data) {
-                Ok(message) => {
-                    let stamp_s = believable(seconds(message.header.stamp) - self.offset_s.unwrap_or(0.0), time_s);
-                    self.map = Some(MapSnapshot { stamp_s, grid: Arc::new(message.grid), costmap: None });
-                    true
-                }
-                Err(_) => false,
-            },
-            Some(MessageType::MapUpdate) if topic == self.inputs.updates_topic.as_ref() => match patch(data) {
-                Ok(message) => match &mut self.map {
-                    Some(map) => {
-                        map.stamp_s = believable(seconds(message.header.stamp) - self.offset_s.unwrap_or(0.0), time_s);
-                        Arc::make_mut(&mut map.grid).apply(&message.patch).is_ok()
-                    }
-                    None => true,
-                },
-                Err(_) => false,
-            },
-            Some(MessageType::Scan) if topic == self.inputs.scan_topic.as_ref() => match scan(data) {
-                Ok(message) => {
-                    self.scan = Some(message);
-                    true
-                }
-                Err(_) => false,
-            },
-            Some(kind @ (MessageType::Goal | MessageType::Pose)) if topic == self.inputs.goal_topic.as_ref() => {
-                match if kind == MessageType::Goal { goal(data) } else { pose(data) } {
-                    Ok(stamped) => {
-                        let frame = stamped.header.frame;
-                        if let Some(goal_in_map) = self.in_map(&frame, &stamped.pose) {
-                            self.goals.push(RecordedGoal { time_s, goal_in_map });
-                        }
-                        true
-                    }
-                    Err(_) => false,
+        let time_s = seconds(message.time);
+        match Told::of(&self.inputs, message.connection, message.data) {
+            None => Ok(false),
+            Some(Ok(told)) => {
+                let is_news = matches!(told, Told::Map(_) | Told::Patch(_) | Told::Result(_));
+                self.learn(told, time_s)?;
+                Ok(is_news)
+            }
+            Some(Err(_)) => {
+                self.malformed += 1;
+                Ok(false)
+            }
+        }
+    }
+
+    fn learn(&mut self, told: Told, time_s: f64) -> Result<(), PlayError> {
+        match told {
+            Told::Transforms { samples, is_static } => self.learn_transforms(&samples, is_static, time_s),
+            Told::Map(message) => {
+                let stamp_s = self.stamp_s(message.header.stamp, time_s);
+                self.map = Some(MapSnapshot { stamp_s, grid: Arc::new(message.grid), costmap: None });
+            }
+            Told::Patch(message) => {
+                let stamp_s = self.stamp_s(message.header.stamp, time_s);
+                if let Some(map) = &mut self.map {
+                    map.stamp_s = stamp_s;
+                    self.malformed += u64::from(Arc::make_mut(&mut map.grid).apply(&message.patch).is_err());
                 }
             }
-            _ => true,
-        };
-        self.malformed += u64::from(!is_understood);
+            Told::Scan(message) => self.learn_scan(message, time_s)?,
+            Told::Goal(message) => {
+                let StampedPose { header, pose } = message.target;
+                if let Some(goal) = self.in_map(&header.frame, &pose) {
+                    let robot = self.pose(time_s).ok();
+                    self.goals.begin(time_s, message.id, goal, robot);
+                }
+            }
+            Told::Result(message) => self.goals.end(time_s, &message.id, message.status, message.text),
+        }
         Ok(())
+    }
+
+    fn learn_transforms(&mut self, samples: &[TransformSample], is_static: bool, time_s: f64) {
+        for sample in samples {
+            if !is_static && sample.stamp_s > 0.0 {
+                let difference_s = sample.stamp_s - time_s;
+                let differs = difference_s.abs() > CLOCKS_DIFFER_S;
+                self.offset_s.get_or_insert(if differs { difference_s } else { 0.0 });
+            }
+            // What cannot be a transform is left out, as tf2 does.
+            let _ = self.transforms.insert(sample, is_static);
+        }
+    }
+
+    /// Keeps a scan, and takes it into the map that is made here.
+    fn learn_scan(&mut self, message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
+        if let Some(mapping) = &mut self.mapping {
+            let taken = mapping.add(message.clone(), &self.transforms)?;
+            let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
+            if taken > 0
+                && is_due
+                && let Some(grid) = mapping.map()
+            {
+                self.map = Some(MapSnapshot { stamp_s: time_s, grid: Arc::new(grid), costmap: None });
+            }
+        }
+        self.scan = Some(message);
+        Ok(())
+    }
+
+    /// The time of a header by the recording's clock where that can be, else when it was
+    /// recorded.
+    fn stamp_s(&self, header: Nanos, recorded_s: f64) -> f64 {
+        let header_s = seconds(header) - self.offset_s.unwrap_or(0.0);
+        if (0.0..=30.0).contains(&(recorded_s - header_s)) { header_s } else { recorded_s }
     }
 
     fn in_map(&self, frame: &str, pose: &Pose) -> Option<Pose> {
         let map_frame = self.inputs.map_frame.as_deref()?;
         if frame_name(frame) == frame_name(map_frame) || frame.is_empty() {
-            return Some(*pose);
+            return Some(self.corrected(*pose));
         }
         let there = self.transforms.latest(map_frame, frame).ok()?;
-        Some(planar(&(there.transform * upright(pose))))
+        Some(self.corrected(planar(&(there.transform * upright(pose)))))
+    }
+
+    /// A pose by tf as it is in the map: another one only where the map is made here.
+    fn corrected(&self, pose: Pose) -> Pose {
+        self.mapping.as_ref().map_or(pose, |mapping| mapping.odom_in_map().compose(&pose))
     }
 
     /// Where the robot was, as tf told it until a time in seconds.
@@ -181,29 +220,9 @@ impl<R: Read + Seek> Player<R> {
                 if age_s > TOLERANCE_S {
                     return Err(PoseError::Stale { map_frame, base_frame, age_s, limit_s: TOLERANCE_S });
                 }
-                Ok(planar(&newest.transform))
+                Ok(self.corrected(planar(&newest.transform)))
             }
         }
-    }
-
-    /// A scan seen from the robot: where the lidar stands on it, and the scan turned upright.
-    /// `None` when tf does not lead there.
-    #[must_use]
-    pub fn on_robot(&self, message: &ScanMessage) -> Option<(Pose, LaserScan)> {
-        let base = self.inputs.base_frame.as_deref()?;
-        let mount = self.transforms.latest(base, &message.header.frame).ok()?.transform;
-        let mut scan = message.scan.clone();
-        if is_upside_down(&mount) {
-            (scan.angle_min_rad, scan.angle_increment_rad) = (-scan.angle_min_rad, -scan.angle_increment_rad);
-        }
-        Some((planar(&mount), scan))
-    }
-
-    /// Where the robot was at the time of a header, in a frame; `None` where tf does not know.
-    #[must_use]
-    pub fn robot_at(&self, frame: &str, stamp_s: f64) -> Option<Pose> {
-        let base = self.inputs.base_frame.as_deref()?;
-        self.transforms.at(frame, base, stamp_s).ok().map(|transform| planar(&transform))
     }
 
     /// The newest map.
@@ -220,14 +239,21 @@ impl<R: Read + Seek> Player<R> {
 
     /// The goals of the recording so far.
     #[must_use]
-    pub fn goals(&self) -> &[RecordedGoal] {
+    pub const fn goals(&self) -> &RecordedGoals {
         &self.goals
+    }
+
+    /// The map under way where it is made of the scans.
+    #[must_use]
+    pub const fn mapping(&self) -> Option<&ScanMapping> {
+        self.mapping.as_ref()
     }
 
     /// The newest scan where its lidar was in the map frame.
     #[must_use]
     pub fn scan(&self, robot_in_map: &Pose) -> Option<(Pose, Arc<LaserScan>)> {
-        let (mount, scan) = self.on_robot(self.scan.as_ref()?)?;
+        let base = self.inputs.base_frame.as_deref()?;
+        let (mount, scan) = on_robot(&self.transforms, base, self.scan.as_ref()?)?;
         Some((robot_in_map.compose(&mount), Arc::new(scan)))
     }
 
@@ -236,28 +262,4 @@ impl<R: Read + Seek> Player<R> {
     pub const fn malformed(&self) -> u64 {
         self.malformed
     }
-}
-
-fn take_transforms(
-    buffer: &mut TransformBuffer,
-    offset_s: &mut Option<f64>,
-    is_static: bool,
-    time: Nanos,
-    data: &[u8],
-) -> bool {
-    let Ok(samples) = transforms(data) else { return false };
-    for sample in &samples {
-        if !is_static && sample.stamp_s > 0.0 {
-            let difference_s = sample.stamp_s - seconds(time);
-            offset_s.get_or_insert(if difference_s.abs() > CLOCKS_DIFFER_S { difference_s } else { 0.0 });
-        }
-        // What cannot be a transform is left out, as tf2 does.
-        let _ = buffer.insert(sample, is_static);
-    }
-    true
-}
-
-/// The time of a header where that can be, else that of the recording.
-fn believable(header_s: f64, recorded_s: f64) -> f64 {
-    if (0.0..=30.0).contains(&(recorded_s - header_s)) { header_s } else { recorded_s }
 }

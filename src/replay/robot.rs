@@ -1,12 +1,14 @@
 //! The recorded robot. It cannot be told where to drive: its commands are taken down, and
 //! their outcome is what the recording did by itself.
 //!
-//! A goal is reached when the recorded robot comes near it. It is taken away (as by a
-//! person who clicks another one) when the recording got another goal, or went its own way
-//! for a while; so decisions keep being made, and no goal is blamed. A turn is done at once:
-//! the recording either turned or it did not.
+//! While the recording drives to the goal that we chose too, that goal ends as the
+//! recording's did. Another goal of ours is reached when the recorded robot comes near it,
+//! and is taken away (as by a person who clicks another one) when the recording goes its own
+//! way for a while; so decisions keep being made, and no goal is blamed. A turn lasts as long
+//! as the recording turns.
 
-use super::player::{Player, RecordedGoal};
+use super::goals::{GoalEnd, RecordedGoals};
+use super::player::{PlayError, Player};
 use crate::bag::{Summary, seconds};
 use crate::geometry::{Pose, shortest_angle};
 use crate::robot::{Command, Navigation, NavigationState, Observation, Robot, RobotError};
@@ -18,15 +20,33 @@ const TICK_S: f64 = 0.2;
 const ARRIVED_M: f64 = 0.5;
 /// A goal is given back after this time, seconds: shorter than any patience.
 const OWN_WAY_S: f64 = 10.0;
+/// Goals nearer than this to each other are the same, metres.
+pub(super) const SAME_M: f64 = 0.5;
+/// The recording may decide the same so much earlier or later than we, seconds.
+pub(super) const LAG_S: f64 = 2.0;
+/// A recording that turned less than this in [`LAG_S`] does not turn, radians.
+const STANDS_RAD: f64 = 0.1;
 
 /// A command under way.
 #[derive(Clone, Copy, Debug)]
 struct Task {
     id: u64,
-    goal: Option<Pose>,
+    aim: Aim,
     since_s: f64,
-    /// How many goals the recording had had by then.
-    goals_before: usize,
+}
+
+/// What a command is after.
+#[derive(Clone, Copy, Debug)]
+enum Aim {
+    Goal(Pose),
+    Turn {
+        /// The whole turn, radians.
+        angle_rad: f64,
+        /// How far the recording had turned at the command's begin, radians.
+        from_rad: f64,
+        /// How far it had turned, and when that was looked at last.
+        seen: (f64, f64),
+    },
 }
 
 /// A bag behind the port.
@@ -34,12 +54,12 @@ pub struct BagRobot<R> {
     player: Player<R>,
     start_s: f64,
     end_s: f64,
-    ticks: u64,
     now_s: f64,
     task: Option<Task>,
     pose: Option<Pose>,
     distance_m: f64,
     turned_rad: f64,
+    has_begun: bool,
 }
 
 impl<R: Read + Seek> BagRobot<R> {
@@ -52,12 +72,12 @@ impl<R: Read + Seek> BagRobot<R> {
             player,
             start_s,
             end_s,
-            ticks: 0,
             now_s: start_s,
             task: None,
             pose: None,
             distance_m: 0.0,
             turned_rad: 0.0,
+            has_begun: false,
         }
     }
 
@@ -105,8 +125,38 @@ impl<R: Read + Seek> BagRobot<R> {
 
     /// The goals of the recording so far.
     #[must_use]
-    pub fn recorded_goals(&self) -> &[RecordedGoal] {
+    pub const fn recorded_goals(&self) -> &RecordedGoals {
         self.player.goals()
+    }
+
+    /// Whether a map with the robot's place in it was ever known.
+    #[must_use]
+    pub const fn has_begun(&self) -> bool {
+        self.has_begun
+    }
+
+    /// To the next tick, or to what wakes the node before.
+    fn look(&mut self) -> Result<Observation, RobotError> {
+        let now_s = self.player.play_to(self.now_s + TICK_S).map_err(|error| unreadable(&error))?.max(self.now_s);
+        if now_s > self.end_s {
+            return Err(RobotError::Ended);
+        }
+        self.now_s = now_s;
+        let pose_in_map = self.player.pose(now_s);
+        if let Ok(pose) = &pose_in_map {
+            self.follow(pose);
+        }
+        let scan = pose_in_map.as_ref().ok().and_then(|pose| self.player.scan(pose));
+        let (map, navigation) = (self.player.map().cloned(), self.navigation());
+        Ok(Observation { stamp_s: now_s, pose_in_map, map, scan, navigation })
+    }
+
+    /// Goes on to the tick before the next message, be it years away.
+    fn skip_silence(&mut self) -> Result<(), RobotError> {
+        if let Some(next_s) = self.player.next_time_s().map_err(|error| unreadable(&error))? {
+            self.now_s = self.now_s.max(next_s - TICK_S);
+        }
+        Ok(())
     }
 
     fn follow(&mut self, pose: &Pose) {
@@ -122,59 +172,90 @@ impl<R: Read + Seek> BagRobot<R> {
     }
 
     /// How the recording did by the command under way.
-    fn navigation(&self) -> Navigation {
-        let Some(Task { id, goal, since_s, goals_before }) = self.task else {
+    fn navigation(&mut self) -> Navigation {
+        let (now_s, turned_rad) = (self.now_s, self.turned_rad);
+        let Some(Task { id, aim, since_s }) = &mut self.task else {
             return Navigation { command: 0, state: NavigationState::Idle };
         };
-        let is_there = |goal: Pose| self.pose.is_some_and(|pose| pose.distance_to(goal.position()) <= ARRIVED_M);
-        let state = match goal {
-            None => NavigationState::Succeeded,
-            Some(goal) if is_there(goal) => NavigationState::Succeeded,
-            Some(_) if self.recorded_goals().len() > goals_before || self.now_s - since_s > OWN_WAY_S => {
-                NavigationState::Preempted
+        let (id, since_s) = (*id, *since_s);
+        let state = match aim {
+            Aim::Goal(goal) => {
+                let goal = *goal;
+                self.drive(&goal, since_s)
             }
-            Some(_) => NavigationState::Active,
+            Aim::Turn { angle_rad, from_rad, seen } => {
+                let is_done = turned_rad - *from_rad >= angle_rad.abs() - STANDS_RAD;
+                let stands = now_s - seen.1 >= LAG_S && turned_rad - seen.0 < STANDS_RAD;
+                if now_s - seen.1 >= LAG_S {
+                    *seen = (turned_rad, now_s);
+                }
+                let is_sent_on = self.player.goals().in_force().is_some_and(|goal| goal.time_s > since_s);
+                if is_done || stands || is_sent_on { NavigationState::Succeeded } else { NavigationState::Active }
+            }
         };
         Navigation { command: id, state }
+    }
+
+    /// How the recording does by a goal of ours.
+    fn drive(&self, goal: &Pose, since_s: f64) -> NavigationState {
+        let goals = self.player.goals();
+        let is_there = self.pose.is_some_and(|pose| pose.distance_to(goal.position()) <= ARRIVED_M);
+        if let Some(recorded) = goals.near(goal, SAME_M, since_s - LAG_S) {
+            return match &recorded.end {
+                None if is_there && !goals.has_results() => NavigationState::Succeeded,
+                None => NavigationState::Active,
+                Some((_, GoalEnd::Reached)) => NavigationState::Succeeded,
+                Some((_, GoalEnd::TakenAway)) => NavigationState::Preempted,
+                Some((_, GoalEnd::GivenUp(why))) => NavigationState::Aborted(why.clone()),
+            };
+        }
+        let waited_s = self.now_s - since_s;
+        if waited_s <= LAG_S {
+            // The recording may only be later than we.
+            NavigationState::Active
+        } else if is_there {
+            NavigationState::Succeeded
+        } else if waited_s > OWN_WAY_S {
+            NavigationState::Preempted
+        } else {
+            NavigationState::Active
+        }
     }
 }
 
 impl<R: Read + Seek> Robot for BagRobot<R> {
+    /// The first observation is that of the first map with the robot's place in it, as the
+    /// node has it.
     fn observe(&mut self) -> Result<Observation, RobotError> {
-        self.ticks += 1;
-        let now_s = self.start_s + TICK_S * self.ticks as f64;
-        if now_s > self.end_s {
-            return Err(RobotError::Ended);
+        loop {
+            let observation = self.look()?;
+            self.has_begun |= observation.map.is_some() && observation.pose_in_map.is_ok();
+            if self.has_begun {
+                return Ok(observation);
+            }
+            self.skip_silence()?;
         }
-        self.now_s = now_s;
-        self.player.play_to(now_s).map_err(|error| RobotError::Disconnected(error.to_string()))?;
-        let pose_in_map = self.player.pose(now_s);
-        if let Ok(pose) = &pose_in_map {
-            self.follow(pose);
-        }
-        let scan = pose_in_map.as_ref().ok().and_then(|pose| self.player.scan(pose));
-        Ok(Observation {
-            stamp_s: now_s,
-            pose_in_map,
-            map: self.player.map().cloned(),
-            scan,
-            navigation: self.navigation(),
-        })
     }
 
     fn command(&mut self, command: &Command) -> Result<(), RobotError> {
-        let (id, goal) = match *command {
+        let (id, aim) = match *command {
             Command::Hold => {
                 self.task = None;
                 return Ok(());
             }
-            Command::Drive { id, goal_in_map } => (id, Some(goal_in_map)),
-            Command::Turn { id, .. } => (id, None),
+            Command::Drive { id, goal_in_map } => (id, Aim::Goal(goal_in_map)),
+            Command::Turn { id, angle_rad } => {
+                let from_rad = self.turned_rad;
+                (id, Aim::Turn { angle_rad, from_rad, seen: (from_rad, self.now_s) })
+            }
         };
         if self.task.is_none_or(|task| task.id != id) {
-            let goals_before = self.recorded_goals().len();
-            self.task = Some(Task { id, goal, since_s: self.now_s, goals_before });
+            self.task = Some(Task { id, aim, since_s: self.now_s });
         }
         Ok(())
     }
+}
+
+fn unreadable(error: &PlayError) -> RobotError {
+    RobotError::Disconnected(error.to_string())
 }

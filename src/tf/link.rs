@@ -1,5 +1,6 @@
 //! One frame in its parent over time.
 
+use crate::geometry::Pose;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use std::collections::VecDeque;
 
@@ -19,6 +20,21 @@ pub struct TransformSample {
     pub translation_m: [f64; 3],
     /// A quaternion x, y, z, w; it need not be normalised.
     pub rotation_xyzw: [f64; 4],
+}
+
+impl TransformSample {
+    /// Where `child` lies in `parent` at a time in seconds, both of them in one plane.
+    #[must_use]
+    pub fn planar(stamp_s: f64, parent: &str, child: &str, child_in_parent: &Pose) -> Self {
+        let (sin, cos) = (0.5 * child_in_parent.yaw).sin_cos();
+        Self {
+            parent: parent.to_owned(),
+            child: child.to_owned(),
+            stamp_s,
+            translation_m: [child_in_parent.x, child_in_parent.y, 0.0],
+            rotation_xyzw: [0.0, 0.0, sin, cos],
+        }
+    }
 }
 
 /// Why a transform is not taken in.

@@ -8,7 +8,9 @@
 #[allow(dead_code)]
 mod rig;
 
+use frontier_explorer::geometry::Pose;
 use frontier_explorer::io::load_map;
+use frontier_explorer::tf::TransformSample;
 use libtest_mimic::{Arguments, Failed, Trial};
 use rig::{DEADLINE, Process, eventually, small_house};
 use std::path::{Path, PathBuf};
@@ -27,6 +29,7 @@ const TESTS: &[Test] = &[
     ("a_stack_of_real_parts_is_explored", real_parts),
     ("rosnode_kill_and_rostopic_and_rosparam_work", tools),
     ("rosbag_records_a_run", rosbag),
+    ("rosbag_reads_and_plays_our_bags", our_bags),
     ("catkin_builds_and_roslaunch_runs_the_demo", demo_launch),
     ("the_launch_file_of_explore_lite_works", explore_lite_launch),
     ("a_killed_master_does_not_end_the_exploration", killed_master),
@@ -168,7 +171,7 @@ fn tools(stage: &Stage) {
 fn rosbag(stage: &Stage) {
     let _sim = stage.sim("");
     let bag = stage.folder.join("run.bag");
-    let topics = "/map /tf /tf_static /scan /move_base/goal /explore/frontiers";
+    let topics = "/map /tf /tf_static /scan /move_base/goal /move_base/result /explore/frontiers";
     let mut record = stage.start("record", &format!("rosbag record -O {} {topics}", bag.display()));
     let mut explore = stage.explore("_exit_when_done:=true");
     explore.expect_code(0, DEADLINE);
@@ -181,6 +184,70 @@ fn rosbag(stage: &Stage) {
         assert!(info.contains(&format!("topic: {topic}\n")), "{topic} is not in\n{info}");
     }
     assert!(info.contains("md5: 3381f2d731d4076ec5c71b0759edbe4e"), "{info}");
+    // A replay of it decides as the node did: at 8 times real time a decision may fall to
+    // another map, so that not all of the few agree.
+    let (frontier, out) = (env!("CARGO_BIN_EXE_frontier"), stage.folder.join("replay"));
+    let said = stage.output(&format!("{frontier} replay {} --out {}", bag.display(), out.display()));
+    let comparison = std::fs::read(out.join("comparison.json")).unwrap();
+    let comparison: serde_json::Value = serde_json::from_slice(&comparison).unwrap();
+    let count = |key: &str| comparison[key].as_u64().unwrap();
+    assert!(count("decisions") >= 3 && 2 * count("agreeing") > count("decisions"), "{said}");
+}
+
+fn our_bags(stage: &Stage) {
+    let house = small_house(&stage.folder);
+    let (frontier, bag) = (env!("CARGO_BIN_EXE_frontier"), stage.folder.join("ours.bag"));
+    let out = stage.folder.join("out");
+    stage.output(&format!(
+        "{frontier} explore {} --start 2.0,1.7 --quiet --bag {} --out {}",
+        house.display(),
+        bag.display(),
+        out.display()
+    ));
+    let info = stage.output(&format!("rosbag info -y {}", bag.display()));
+    assert!(
+        info.contains("version: 2.0") && info.contains("indexed: True") && info.contains("compression: lz4"),
+        "{info}"
+    );
+    let count = source("tests/real_ros/count.py");
+    let counts = stage.output(&format!("/usr/bin/python3 {} {}", count.display(), bag.display()));
+    for topic in
+        ["/clock=", "/map=", "/move_base/goal=", "/move_base/result=", "/odom=", "/scan=", "/tf=", "/tf_static=1"]
+    {
+        assert!(counts.contains(topic), "{topic} is not among {counts}");
+    }
+    // Every way of compression, and back.
+    for way in ["none", "bz2", "lz4"] {
+        let other = stage.folder.join(format!("{way}.bag"));
+        write_bag(&other, way);
+        let info = stage.output(&format!("rosbag info -y {}", other.display()));
+        assert!(info.contains(&format!("compression: {way}")) && info.contains("messages: 40"), "{info}");
+        let counts = stage.output(&format!("/usr/bin/python3 {} {}", count.display(), other.display()));
+        assert_eq!(counts.trim(), "/move_base/result=20 /tf=20");
+        stage.output(&format!("rosbag check {}", other.display()));
+    }
+    // Played, its messages arrive.
+    let mut play = stage.start("play", &format!("rosbag play --rate 20 --delay 1 {}", bag.display()));
+    let width = stage.output("rostopic echo -n 1 /map/info/width");
+    assert!(width.trim().starts_with(|first: char| first.is_ascii_digit()), "{width}");
+    play.wait(DEADLINE);
+}
+
+/// A bag of transforms and results.
+fn write_bag(path: &Path, way: &str) {
+    use frontier_explorer::bag::{BagWriter, Compression, Header, MessageType, nanos, result_message, tf_message};
+    let compression = Compression::from_name(way).unwrap();
+    let mut writer = BagWriter::new(std::fs::File::create(path).unwrap(), compression).unwrap();
+    let tf = writer.topic("/tf", MessageType::Transforms, false);
+    let result = writer.topic("/move_base/result", MessageType::Result, false);
+    for tick in 1..=20 {
+        let stamp_s = f64::from(tick);
+        let header = Header { seq: tick, stamp: nanos(stamp_s), frame: "map".to_owned() };
+        let sample = TransformSample::planar(stamp_s, "odom", "base_link", &Pose::new(stamp_s, 0.0, 0.0));
+        writer.write(tf, nanos(stamp_s), &tf_message(&[sample])).unwrap();
+        writer.write(result, nanos(stamp_s), &result_message(&header, "goal", 3, "reached")).unwrap();
+    }
+    writer.finish().unwrap();
 }
 
 static WORKSPACE: OnceLock<tempfile::TempDir> = OnceLock::new();

@@ -5,10 +5,33 @@ use super::super::progress::ProgressMonitor;
 use super::super::record::{DecisionRecord, End, EndReason};
 use super::super::state::{Drive, State};
 use super::Explorer;
-use crate::geometry::Pose;
+use crate::geometry::{Point, Pose};
 use crate::robot::{MapSnapshot, Observation};
 
 impl Explorer {
+    /// Goes on as if the robot had been sent to this goal by the explorer itself: a
+    /// recording went there, and what is decided next shall be decided from there. A run
+    /// that has ended keeps its end.
+    pub fn adopt(&mut self, goal: Pose, observation: &Observation) {
+        let (Some(map), Ok(pose)) = (&observation.map, &observation.pose_in_map) else { return };
+        if matches!(self.state, State::Ended(_) | State::Returning { .. }) {
+            return;
+        }
+        let distance_m = |point: &Point| goal.distance_to(*point);
+        let cells = self.lookout.frontiers().iter().flat_map(|frontier| &frontier.cells);
+        // The frontier that it was sent for is the nearest one.
+        let target = cells.copied().min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
+        self.state = State::Driving(Drive {
+            id: self.next_id(),
+            goal,
+            target: target.unwrap_or_else(|| goal.position()),
+            is_stage: false,
+            since_s: observation.stamp_s,
+            progress: ProgressMonitor::new(pose, observation.stamp_s),
+            considered_s: map.stamp_s,
+        });
+    }
+
     /// Weighs the frontiers of a map and goes on accordingly.
     pub(super) fn decide(
         &mut self,

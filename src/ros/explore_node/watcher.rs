@@ -125,7 +125,7 @@ const fn phase_sentence(phase: Phase) -> Option<&'static str> {
 }
 
 impl Watcher<RosRobot> for NodeWatcher<'_> {
-    fn before_step(&mut self, explorer: &mut Explorer, observation: &Observation) {
+    fn before_step(&mut self, _: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
         self.now_s = observation.stamp_s;
         self.began_s.get_or_insert(self.now_s);
         if let Some(region) = self.controls.new_region() {

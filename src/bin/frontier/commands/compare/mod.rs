@@ -7,9 +7,9 @@ mod starts;
 mod tables;
 mod worlds;
 
-use super::explore::{robot_help, stop_flag};
+use super::explore::robot_help;
 use crate::exit::Outcome;
-use crate::{inputs, output, values};
+use crate::{inputs, output, stop, values};
 use anyhow::{Context, bail};
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::io::{BUILT_IN_WORLDS, write_atomic};
@@ -106,7 +106,7 @@ fn compare(args: &Args) -> anyhow::Result<(Comparison, usize)> {
         .build()
         .context("cannot start threads for the runs")?;
     let progress = Progress::new(args.quiet, runs.len());
-    let runner = Runner { presets: &presets, robot: &robot, worlds: &worlds, stop: stop_flag()?, progress: &progress };
+    let runner = Runner { presets: &presets, robot: &robot, worlds: &worlds, stop: stop::flag()?, progress: &progress };
     let made = pool.install(|| runner.make(&runs));
     progress.finish();
     Ok((Comparison { plan, runs: made? }, runs.len()))

@@ -51,7 +51,7 @@ impl Runner<'_> {
             return Ok(None);
         }
         let record = recorder.record(&plan, &sim, &explorer, &end, began.elapsed().as_secs_f64());
-        let made = ComparedRun::new(run, &record, &recorder.trajectory);
+        let made = ComparedRun::new(run, &record, &recorder.trail.trajectory);
         self.progress.made(&made);
         Ok(Some(made))
     }

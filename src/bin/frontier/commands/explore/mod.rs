@@ -1,24 +1,24 @@
 //! `frontier explore`: a simulated robot that knows nothing explores a world.
 
-mod files;
 mod progress;
 pub mod recorder;
+mod recording;
 
 use crate::exit::Outcome;
+use crate::run_folder::RunFolder;
 use crate::simulation::{NamedWorld, Plan};
-use crate::{inputs, output, values};
+use crate::{inputs, output, stop, values};
 use anyhow::Context;
-use files::RunFolder;
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::explore::{End, run as explore};
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::io::load_world;
+use frontier_explorer::report::RunRecord;
 use frontier_explorer::sim::MapStyle;
 use progress::Progress;
 use recorder::Recorder;
-use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use recording::Recording;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Arguments of `frontier explore`.
@@ -58,6 +58,9 @@ pub struct Args {
     /// Where the results go.
     #[arg(long, value_name = "DIR", default_value = "exploration")]
     out: PathBuf,
+    /// Record the run in a bag: map, transforms, scans, odometry, goals and results.
+    #[arg(long, value_name = "BAG")]
+    bag: Option<PathBuf>,
     /// Print the whole configuration, defaults included, and do nothing.
     #[arg(long)]
     print_config: bool,
@@ -101,14 +104,21 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     };
     let (mut sim, mut explorer) = plan.prepare()?;
     // The folder is made before the run: nobody waits for a map that cannot be saved.
-    let folder = RunFolder::create(&args.out)?;
+    let folder = RunFolder::create(&args.out, "exploration.gif")?;
     let progress = Progress::new(args.quiet, &plan.world.name, &plan.preset.preset);
-    let mut recorder = Recorder::new(progress, stop_flag()?);
+    let mut recorder = Recorder::new(progress, stop::flag()?);
+    if let Some(path) = &args.bag {
+        let lidar = &plan.robot.lidar;
+        recorder.bag = Some(Recording::create(path, lidar.mount, 1.0 / lidar.rate_hz)?);
+    }
     let end = explore(&mut sim, &mut explorer, &mut recorder);
     let record = recorder.record(&plan, &sim, &explorer, &end, began.elapsed().as_secs_f64());
-    folder.write(&record, &recorder, &sim, &plan.preset.explorer)?;
+    folder.write(&record, &recorder.trail, sim.map(), Some(sim.pose()), &plan.preset.explorer)?;
+    if let Some(bag) = &mut recorder.bag {
+        bag.finish()?;
+    }
     if !args.quiet {
-        summarize(&record, &folder)?;
+        summarize(&record, &folder, args.bag.as_deref())?;
     }
     Ok(outcome(&end))
 }
@@ -133,16 +143,8 @@ fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
     Ok(robot)
 }
 
-/// A flag that Ctrl-C and SIGTERM raise.
-pub fn stop_flag() -> anyhow::Result<Arc<AtomicBool>> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let raised = Arc::clone(&flag);
-    ctrlc::set_handler(move || raised.store(true, Ordering::Relaxed)).context("cannot listen for Ctrl-C")?;
-    Ok(flag)
-}
-
 /// What the user reads when all is saved.
-fn summarize(record: &frontier_explorer::report::RunRecord, folder: &RunFolder) -> anyhow::Result<()> {
+fn summarize(record: &RunRecord, folder: &RunFolder, bag: Option<&Path>) -> anyhow::Result<()> {
     output::line(format_args!(
         "{}: {}; {:.1} % of the reachable area after {:.0} s and {:.1} m, {} goals, {} failed",
         record.end_reason.name(),
@@ -155,7 +157,7 @@ fn summarize(record: &frontier_explorer::report::RunRecord, folder: &RunFolder) 
     ))?;
     let speed = record.sim_time_s / record.wall.total_s.max(1e-9);
     output::line(format_args!("simulated in {:.1} s, {speed:.0} times as fast as real time", record.wall.total_s))?;
-    for file in folder.files() {
+    for file in folder.files().chain(bag.map(Path::to_owned)) {
         output::line(format_args!("  {}", file.display()))?;
     }
     Ok(())

@@ -4,18 +4,17 @@ use crate::commands::bag;
 use crate::exit::Outcome;
 use crate::{output, values};
 use anyhow::{Context, bail};
-use frontier_explorer::bag::ScanMessage;
-use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::bag::seconds;
+use frontier_explorer::geometry::Point;
 use frontier_explorer::grid::Thresholds;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
-use frontier_explorer::mapping::{BuilderConfig, MapBuilder};
+use frontier_explorer::mapping::BuilderConfig;
 use frontier_explorer::replay::{Inputs, Player, Wanted};
 use frontier_explorer::report::{Picture, Theme};
-use std::collections::VecDeque;
 use std::path::PathBuf;
 
-/// So many scans wait for the transforms of their time.
-const WAITING: usize = 40;
+/// The way is looked at this often, seconds.
+const LOOK_S: f64 = 0.1;
 
 /// Arguments of `frontier map build`.
 #[derive(Debug, clap::Args)]
@@ -59,74 +58,38 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let mut config = BuilderConfig { is_matching: !args.odometry_only, ..BuilderConfig::default() };
     config.mapper.resolution_m = args.resolution;
     config.max_range_m = args.max_range.unwrap_or(f64::INFINITY);
-    let mut work = Work { builder: MapBuilder::new(config), way: Vec::new(), last: None, without_pose: 0 };
     let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone())?;
-    let mut waiting = VecDeque::new();
-    while let Some(scan) = player.next_scan()? {
-        waiting.push_back(scan);
-        work.place(&mut waiting, &player, odom)?;
-    }
-    work.without_pose += waiting.len();
-    work.save(args)
-}
-
-struct Work {
-    builder: MapBuilder,
-    way: Vec<Point>,
-    last: Option<Pose>,
-    without_pose: usize,
-}
-
-impl Work {
-    /// Takes the scans in whose time tf has reached.
-    fn place(
-        &mut self,
-        waiting: &mut VecDeque<ScanMessage>,
-        player: &Player<std::fs::File>,
-        odom: &str,
-    ) -> anyhow::Result<()> {
-        while let Some(message) = waiting.front() {
-            let robot = player.robot_at(odom, message.scan.stamp_s);
-            match (robot, player.on_robot(message)) {
-                (Some(robot), Some((mount, scan))) => {
-                    let pose = self.builder.add(&robot, &mount, &scan)?;
-                    if self.way.last().is_none_or(|&last| pose.distance_to(last) > 0.05) {
-                        self.way.push(pose.position());
-                    }
-                    self.last = Some(pose);
-                }
-                _ if waiting.len() <= WAITING => return Ok(()),
-                _ => self.without_pose += 1,
+    player.map_scans(config);
+    let mut way: Vec<Point> = Vec::new();
+    let (mut now_s, mut last) = (seconds(summary.start), None);
+    while let Some(next_s) = player.next_time_s()? {
+        now_s = player.play_to(next_s.max(now_s + LOOK_S))?;
+        if let Ok(pose) = player.pose(now_s) {
+            last = Some(pose);
+            if way.last().is_none_or(|&last| pose.distance_to(last) > 0.05) {
+                way.push(pose.position());
             }
-            waiting.pop_front();
         }
-        Ok(())
     }
-
-    fn save(&self, args: &Args) -> anyhow::Result<Outcome> {
-        let Some(grid) = self.builder.map()? else {
-            bail!("{}: tf has no place for any of its scans", args.bag.display());
-        };
-        let saved = save_map(&args.output, &grid, &SaveOptions::default())?;
-        let picture = Picture {
-            grid: &grid,
-            thresholds: &Thresholds::default(),
-            trajectory: &self.way,
-            start_in_map: None,
-            end_in_map: self.last,
-            goals: &[],
-            region: None,
-            theme: Theme::Clear,
-        };
-        let png = saved.yaml.with_extension("way.png");
-        write_atomic(&png, &picture.to_png()?).with_context(|| format!("cannot write {}", png.display()))?;
-        output::line(format_args!(
-            "{} scans taken in, {} of them placed by odometry alone, {} without a place in tf",
-            self.builder.taken, self.builder.unmatched, self.without_pose
-        ))?;
-        for file in [&saved.yaml, &saved.image, &png] {
-            output::line(format_args!("  {}", file.display()))?;
-        }
-        Ok(Outcome::Done)
+    let Some((mapping, grid)) = player.mapping().and_then(|mapping| Some((mapping, mapping.map()?))) else {
+        bail!("{}: tf has no place for any of its scans", args.bag.display());
+    };
+    let saved = save_map(&args.output, &grid, &SaveOptions::default())?;
+    let picture = Picture {
+        grid: &grid,
+        thresholds: &Thresholds::default(),
+        trajectory: &way,
+        start_in_map: None,
+        end_in_map: last,
+        goals: &[],
+        region: None,
+        theme: Theme::Clear,
+    };
+    let png = saved.yaml.with_extension("way.png");
+    write_atomic(&png, &picture.to_png()?).with_context(|| format!("cannot write {}", png.display()))?;
+    super::tell_scans(mapping)?;
+    for file in [&saved.yaml, &saved.image, &png] {
+        output::line(format_args!("  {}", file.display()))?;
     }
+    Ok(Outcome::Done)
 }

@@ -8,7 +8,9 @@ mod picture;
 mod save;
 
 use crate::exit::Outcome;
+use crate::output;
 use clap::Subcommand;
+use frontier_explorer::replay::ScanMapping;
 
 /// What to do with maps.
 #[derive(Debug, Subcommand)]
@@ -34,4 +36,13 @@ pub fn run(command: &Command) -> anyhow::Result<Outcome> {
         Command::Save(args) => save::run(args),
         Command::Diff(args) => diff::run(args),
     }
+}
+
+/// What became of the scans of a bag.
+pub fn tell_scans(mapping: &ScanMapping) -> anyhow::Result<()> {
+    let (taken, unmatched) = mapping.taken();
+    let without = mapping.without_pose();
+    output::line(format_args!(
+        "{taken} scans taken in, {unmatched} of them placed by odometry alone, {without} without a place in tf"
+    ))
 }

@@ -6,13 +6,14 @@ mod recorder;
 
 use super::bag;
 use crate::exit::Outcome;
+use crate::run_folder::RunFolder;
 use crate::{inputs, output, values};
-use anyhow::{Context, bail};
+use anyhow::bail;
 use frontier_explorer::bag::Summary;
 use frontier_explorer::explore::{Explorer, run as explore};
-use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
+use frontier_explorer::mapping::BuilderConfig;
 use frontier_explorer::replay::{BagRobot, Inputs, Player, Wanted};
-use frontier_explorer::report::{Animation, HtmlReport, Picture, RunRecord, Theme};
+use frontier_explorer::report::RunRecord;
 use out_bag::OutBag;
 use recorder::Recorder;
 use std::path::{Path, PathBuf};
@@ -32,6 +33,16 @@ pub struct Args {
     /// The topic of the map, instead of the one that is guessed.
     #[arg(long, value_name = "TOPIC")]
     map_topic: Option<String>,
+    /// The topic of the scans, instead of the one that is guessed; a map is made of them
+    /// where the bag has none.
+    #[arg(long, value_name = "TOPIC")]
+    scan_topic: Option<String>,
+    /// Make a map of the scans even where the bag has one.
+    #[arg(long)]
+    map_from_scans: bool,
+    /// Edge length of a cell of a map that is made of scans, metres.
+    #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres)]
+    resolution: f64,
     /// The robot's frame, instead of the one that is guessed.
     #[arg(long, value_name = "FRAME")]
     pose_frame: Option<String>,
@@ -70,17 +81,25 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let summary = bag::summary(&args.bag)?;
     let wanted = Wanted {
         map_topic: args.map_topic.clone(),
+        scan_topic: args.scan_topic.clone(),
         map_frame: args.map_frame.clone(),
         pose_frame: args.pose_frame.clone(),
-        ..Wanted::default()
     };
-    let found = Inputs::of(&summary, &wanted)?;
+    let mut found = Inputs::of(&summary, &wanted)?;
+    if args.map_from_scans {
+        found.forget_map();
+    }
     tell(args, &summary, &found)?;
-    if found.map_topic.is_none() || found.base_frame.is_none() {
+    if !found.can_replay() {
         bail!("{}: {}", args.bag.display(), found.verdict().first().map_or("", String::as_str));
     }
-    std::fs::create_dir_all(&args.out).with_context(|| format!("cannot make the folder {}", args.out.display()))?;
+    let folder = RunFolder::create(&args.out, "replay.gif")?;
     let mut player = Player::new(bag::open(&args.bag)?, &summary, found.clone())?;
+    if found.map_topic.is_none() {
+        let mut config = BuilderConfig::default();
+        config.mapper.resolution_m = args.resolution;
+        player.map_scans(config);
+    }
     let out_bag = match &args.out_bag {
         Some(path) => Some(OutBag::create(path, &found)?),
         None => None,
@@ -95,7 +114,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let name = args.bag.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let names = (name, preset.preset.clone(), robot_config.name);
     let record = recorder.record(names, &robot, &explorer, &end, began.elapsed().as_secs_f64());
-    let files = save(args, &record, &recorder, &robot, &preset.explorer)?;
+    let files = save(&folder, &record, &recorder, &robot, &preset.explorer)?;
     recorder.finish()?;
     if !args.quiet {
         report(args, &record, &recorder, &robot, &files)?;
@@ -116,47 +135,26 @@ fn tell(args: &Args, summary: &Summary, found: &Inputs) -> anyhow::Result<()> {
 
 type FileRobot = BagRobot<std::fs::File>;
 
+/// Writes the results; without a map there is only what was decided.
 fn save(
-    args: &Args,
+    folder: &RunFolder,
     record: &RunRecord,
     recorder: &Recorder<'_>,
     robot: &FileRobot,
     settings: &frontier_explorer::explore::ExplorerSettings,
 ) -> anyhow::Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    let mut put = |name: &str, bytes: &[u8]| -> anyhow::Result<()> {
-        let path = args.out.join(name);
-        write_atomic(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
-        files.push(path);
-        Ok(())
-    };
-    put("run.json", &record.to_json()?)?;
-    put("comparison.json", &serde_json::to_vec_pretty(&recorder.comparison)?)?;
-    let Some(grid) = robot.player().grid() else { return Ok(files) };
-    save_map(&args.out.join("map.yaml"), grid, &SaveOptions::default())?;
-    let picture = Picture {
-        grid,
-        thresholds: &settings.thresholds,
-        trajectory: &recorder.trajectory,
-        start_in_map: Some(record.start),
-        end_in_map: robot.pose(),
-        goals: &recorder.goals,
-        region: settings.region.as_ref(),
-        theme: Theme::Clear,
-    };
-    let map_png = picture.to_png()?;
-    put("map.png", &map_png)?;
-    let animation =
-        Animation { thresholds: &settings.thresholds, trajectory: &recorder.trajectory, theme: Theme::Clear };
-    let gif = animation.to_gif(recorder.frames.frames());
-    let gif = gif.ok();
-    if let Some(gif) = &gif {
-        put("replay.gif", gif)?;
+    let comparison = "comparison.json";
+    folder.save(comparison, &serde_json::to_vec_pretty(&recorder.agreement)?)?;
+    match robot.player().grid() {
+        Some(grid) => {
+            folder.write(record, &recorder.trail, grid, robot.pose(), settings)?;
+            Ok(folder.files().chain([folder.path(comparison)]).collect())
+        }
+        None => {
+            folder.save("run.json", &record.to_json()?)?;
+            Ok(vec![folder.path("run.json"), folder.path(comparison)])
+        }
     }
-    let html = HtmlReport { run: record, map_png: &map_png, animation_gif: gif.as_deref(), theme: Theme::Clear };
-    put("report.html", html.to_html()?.as_bytes())?;
-    files.push(args.out.join("map.yaml"));
-    Ok(files)
 }
 
 fn report(
@@ -175,7 +173,13 @@ fn report(
         record.distance_m,
         record.known_area_m2,
     ))?;
-    recorder.comparison.print()?;
+    if !robot.has_begun() {
+        output::line(format_args!("warning: there was never a map with the robot's place in it: nothing was decided"))?;
+    }
+    comparison::print(&recorder.agreement, robot.now_s() - robot.elapsed_s())?;
+    if let Some(mapping) = robot.player().mapping() {
+        super::map::tell_scans(mapping)?;
+    }
     if robot.player().malformed() > 0 {
         output::line(format_args!("warning: {} messages could not be understood", robot.player().malformed()))?;
     }

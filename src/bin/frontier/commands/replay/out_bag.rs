@@ -1,111 +1,121 @@
 //! A bag with the recorded map and transforms and with what we decided, for RViz.
 
-use anyhow::Context;
+use crate::bag_file::BagFile;
 use frontier_explorer::bag::{
-    BagWriter, Compression, Connection, Header, MessageType, marker_message, nanos, path_message, pose_message,
+    Connection, Header, MessageType, PlayedMessage, map_message, marker_message, nanos, path_message, pose_message,
+    tf_message,
 };
 use frontier_explorer::explore::Explorer;
 use frontier_explorer::geometry::Point;
-use frontier_explorer::io::AtomicFile;
-use frontier_explorer::replay::{Inputs, Tap};
+use frontier_explorer::grid::OccupancyGrid;
+use frontier_explorer::replay::{Inputs, ScanMapping, Tap};
+use frontier_explorer::tf::TransformSample;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::io;
 use std::path::Path;
 use std::rc::Rc;
 
+/// The frame of a map that is made here: no recording has it.
+const MADE_FRAME: &str = "frontier_map";
+
 struct Inner {
-    writer: Option<BagWriter<AtomicFile>>,
+    file: BagFile,
+    inputs: Inputs,
     /// Numbers of the recorded connections, by topic and publisher.
     copied: BTreeMap<(String, String), u32>,
-    ours: [u32; 3],
     seq: u32,
-    failed: Option<io::Error>,
 }
 
-/// The bag while it is written.
+/// The bag while it is written: what is played comes by its tap.
 pub struct OutBag {
     inner: Rc<RefCell<Inner>>,
-    inputs: Inputs,
+    frontiers: u32,
+    goal: u32,
+    path: u32,
+    /// The topics of a map that is made here, and of where odometry lies in it.
+    made: Option<(u32, u32)>,
 }
 
 impl OutBag {
     /// Begins it.
     pub fn create(path: &Path, inputs: &Inputs) -> anyhow::Result<Self> {
-        let begin = || BagWriter::new(AtomicFile::create(path)?, Compression::Lz4);
-        let mut writer = begin().with_context(|| format!("cannot write {}", path.display()))?;
-        let ours = [
-            writer.topic("/explore/frontiers", MessageType::Markers, true),
-            writer.topic("/explore/goal", MessageType::Pose, true),
-            writer.topic("/explore/path", MessageType::Path, true),
-        ];
-        let inner = Inner { writer: Some(writer), copied: BTreeMap::new(), ours, seq: 0, failed: None };
-        Ok(Self { inner: Rc::new(RefCell::new(inner)), inputs: inputs.clone() })
+        let mut file = BagFile::create(path)?;
+        let (frontiers, goal, path) = (
+            file.topic("/explore/frontiers", MessageType::Markers, true),
+            file.topic("/explore/goal", MessageType::Pose, true),
+            file.topic("/explore/path", MessageType::Path, true),
+        );
+        let is_made = inputs.map_topic.is_none();
+        let made = is_made
+            .then(|| (file.topic("/map", MessageType::Map, true), file.topic("/tf", MessageType::Transforms, false)));
+        let inner = Inner { file, inputs: inputs.clone(), copied: BTreeMap::new(), seq: 0 };
+        Ok(Self { inner: Rc::new(RefCell::new(inner)), frontiers, goal, path, made })
     }
 
     /// Takes the recorded map, transforms and scans over.
     pub fn tap(&self) -> Tap {
-        let (inner, inputs) = (Rc::clone(&self.inner), self.inputs.clone());
-        Box::new(move |message| {
-            let Connection { topic, kind, md5, caller, .. } = &**message.connection;
-            let is_input = [&inputs.map_topic, &inputs.updates_topic, &inputs.scan_topic, &inputs.goal_topic]
-                .into_iter()
-                .any(|name| name.as_ref() == Some(topic));
-            let known = MessageType::of(kind, md5);
-            if !(is_input || matches!(known, Some(MessageType::Transforms | MessageType::Clock))) {
-                return;
-            }
-            let Inner { writer, copied, failed, .. } = &mut *inner.borrow_mut();
-            let Some(writer) = writer else { return };
-            let key = (topic.clone(), caller.clone());
-            let number = match copied.get(&key) {
-                Some(&number) => number,
-                None => {
-                    let number = writer.connect((**message.connection).clone());
-                    copied.insert(key, number);
-                    number
-                }
-            };
-            note(failed, writer.write(number, message.time, message.data));
-        })
+        let inner = Rc::clone(&self.inner);
+        Box::new(move |message| inner.borrow_mut().copy(message))
     }
 
     /// Writes the outcome of a decision.
     pub fn decided(&self, now_s: f64, explorer: &Explorer, edge_m: f64) {
-        let Inner { writer, ours, seq, failed, .. } = &mut *self.inner.borrow_mut();
-        let Some(writer) = writer else { return };
+        let Inner { file, inputs, seq, .. } = &mut *self.inner.borrow_mut();
         *seq = seq.wrapping_add(1);
-        let frame = self.inputs.map_frame.clone().unwrap_or_default();
+        let frame =
+            if self.made.is_some() { MADE_FRAME.to_owned() } else { inputs.map_frame.clone().unwrap_or_default() };
         let header = Header { seq: *seq, stamp: nanos(now_s), frame };
         let points: Vec<Point> = explorer.frontiers().iter().flat_map(|f| &f.cells).copied().collect();
-        let [frontiers, goal, path] = *ours;
-        let mut put = |number: u32, data: &[u8]| {
-            note(failed, writer.write(number, header.stamp, data));
-        };
-        put(frontiers, &marker_message(&header, "frontiers", edge_m, &points));
+        file.put(self.frontiers, header.stamp, &marker_message(&header, "frontiers", edge_m, &points));
         if let Some(pose) = explorer.goal() {
-            put(goal, &pose_message(&header, &pose));
+            file.put(self.goal, header.stamp, &pose_message(&header, &pose));
         }
         if let Some(way) = explorer.path() {
-            put(path, &path_message(&header, &way.poses));
+            file.put(self.path, header.stamp, &path_message(&header, &way.poses));
         }
+    }
+
+    /// Writes the map that is made here.
+    pub fn mapped(&self, now_s: f64, mapping: &ScanMapping, grid: &OccupancyGrid) {
+        let (Some((map, tf)), Inner { file, inputs, seq, .. }) = (self.made, &mut *self.inner.borrow_mut()) else {
+            return;
+        };
+        *seq = seq.wrapping_add(1);
+        let header = Header { seq: *seq, stamp: nanos(now_s), frame: MADE_FRAME.to_owned() };
+        file.put(map, header.stamp, &map_message(&header, grid));
+        let odom = inputs.odom_frame.clone().unwrap_or_default();
+        // Below odometry, as a frame has one parent: a recorded map may be above it.
+        let map_in_odom = TransformSample::planar(now_s, &odom, MADE_FRAME, &mapping.odom_in_map().inverse());
+        file.put(tf, header.stamp, &tf_message(&[map_in_odom]));
     }
 
     /// Closes it.
     pub fn finish(&self) -> anyhow::Result<()> {
-        let mut inner = self.inner.borrow_mut();
-        if let Some(error) = inner.failed.take() {
-            return Err(error).context("cannot write the bag");
-        }
-        let Some(writer) = inner.writer.take() else { return Ok(()) };
-        let file = writer.finish().context("cannot write the bag")?;
-        file.commit().context("cannot write the bag")
+        self.inner.borrow_mut().file.finish()
     }
 }
 
-/// Remembers the first failure.
-fn note(failed: &mut Option<io::Error>, result: io::Result<()>) {
-    if let Err(error) = result {
-        failed.get_or_insert(error);
+impl Inner {
+    /// Takes over a message of an input.
+    fn copy(&mut self, message: &PlayedMessage<'_>) {
+        let Connection { topic, kind, md5, caller, .. } = &**message.connection;
+        let Inputs { map_topic, updates_topic, scan_topic, goal_topic, results_topic, .. } = &self.inputs;
+        let is_input = [map_topic, updates_topic, scan_topic, goal_topic, results_topic]
+            .into_iter()
+            .any(|name| name.as_ref() == Some(topic));
+        let known = MessageType::of(kind, md5);
+        if !(is_input || matches!(known, Some(MessageType::Transforms | MessageType::Clock))) {
+            return;
+        }
+        let key = (topic.clone(), caller.clone());
+        let number = match self.copied.get(&key) {
+            Some(&number) => number,
+            None => {
+                let number = self.file.connect((**message.connection).clone());
+                self.copied.insert(key, number);
+                number
+            }
+        };
+        self.file.put(number, message.time, message.data);
     }
 }

@@ -1,27 +1,23 @@
 //! Watches a replay: decisions, pictures, and the recording's own goals.
 
-use super::comparison::Comparison;
 use super::out_bag::OutBag;
 use super::{Args, FileRobot};
-use crate::commands::explore::stop_flag;
+use crate::stop;
+use crate::trail::Trail;
 use anyhow::Context;
 use frontier_explorer::config::RobotConfig;
-use frontier_explorer::explore::{CandidateStatus, Decision, DecisionRecord, End, Explorer, ExplorerSettings, Watcher};
+use frontier_explorer::explore::{Decision, End, Explorer, ExplorerSettings, Watcher};
 use frontier_explorer::frontier::{DetectionInput, Frontier, FrontierDetector};
-use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::{Costmap, Inflation, OccupancyGrid};
 use frontier_explorer::io::write_atomic;
-use frontier_explorer::report::{
-    Frame, FrameLog, MedianMax, Overlay, OverlayFrontier, PictureGoal, RunRecord, SCHEMA_VERSION, Series, Theme, Wall,
-};
+use frontier_explorer::replay::Agreement;
+use frontier_explorer::report::{Overlay, OverlayFrontier, RunRecord, SCHEMA_VERSION, Series, Theme};
 use frontier_explorer::robot::Observation;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// A new point of the trajectory is remembered after this way, metres.
-const TRAJECTORY_STEP_M: f64 = 0.05;
 
 /// Remembers what the report tells.
 pub struct Recorder<'a> {
@@ -31,15 +27,10 @@ pub struct Recorder<'a> {
     stop: Arc<AtomicBool>,
     began: Instant,
     rate: Option<f64>,
-    step_began: Instant,
-    decision_ms: Vec<f64>,
-    decisions: Vec<DecisionRecord>,
     /// Time, known cells and way driven.
     growth: Vec<(f64, usize, f64)>,
     known: Option<(Arc<OccupancyGrid>, usize)>,
     start: Option<Pose>,
-    ours: Option<(Pose, String)>,
-    goals_compared: usize,
     /// Times at which pictures are still to be made, the last first.
     at: Vec<f64>,
     out: PathBuf,
@@ -47,14 +38,10 @@ pub struct Recorder<'a> {
     failed: Option<anyhow::Error>,
     /// Pictures of moments.
     pub pictures: Vec<PathBuf>,
-    /// Our goals beside the recording's.
-    pub comparison: Comparison,
-    /// The way driven.
-    pub trajectory: Vec<Point>,
-    /// Our goals.
-    pub goals: Vec<PictureGoal>,
-    /// The animation.
-    pub frames: FrameLog,
+    /// Our decisions beside the recording's.
+    pub agreement: Agreement,
+    /// Decisions, goals, the way.
+    pub trail: Trail,
 }
 
 impl<'a> Recorder<'a> {
@@ -71,26 +58,19 @@ impl<'a> Recorder<'a> {
             settings,
             inflation: robot.inflation(),
             detector: settings.detector.name.build(&settings.detector_params()),
-            stop: stop_flag()?,
+            stop: stop::flag()?,
             began: Instant::now(),
             rate: args.rate,
-            step_began: Instant::now(),
-            decision_ms: Vec::new(),
-            decisions: Vec::new(),
             growth: Vec::new(),
             known: None,
             start: None,
-            ours: None,
-            goals_compared: 0,
             at,
             out: args.out.clone(),
             out_bag,
             failed: None,
             pictures: Vec::new(),
-            comparison: Comparison::default(),
-            trajectory: Vec::new(),
-            goals: Vec::new(),
-            frames: FrameLog::default(),
+            agreement: Agreement::default(),
+            trail: Trail::new(),
         })
     }
 
@@ -104,6 +84,7 @@ impl<'a> Recorder<'a> {
         end: &End,
         total_s: f64,
     ) -> RunRecord {
+        self.agreement.finish(robot.recorded_goals());
         let counts = *explorer.counts();
         let census =
             robot.player().grid().map(|grid| (grid.census(&self.settings.thresholds), grid.info().cell_area_m2()));
@@ -135,9 +116,9 @@ impl<'a> Recorder<'a> {
             distance_to_coverage_m: series.distance_to_coverage_m(),
             counts,
             left_behind: end.left_behind,
-            decisions: std::mem::take(&mut self.decisions),
+            decisions: std::mem::take(&mut self.trail.decisions),
             series: series.points(),
-            wall: Wall { total_s, decision_ms: MedianMax::of(&self.decision_ms) },
+            wall: self.trail.wall(total_s),
         }
     }
 
@@ -154,23 +135,6 @@ impl<'a> Recorder<'a> {
         let input = DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(grid, robot_in_map) };
         // A map on which nothing can be detected shows none.
         self.detector.detect(&input).unwrap_or_default()
-    }
-
-    /// Sets the recording's new goals beside ours.
-    fn compare(&mut self, robot: &FileRobot, observation: &Observation) {
-        let goals = robot.recorded_goals();
-        if goals.len() == self.goals_compared {
-            return;
-        }
-        let (Some(map), Some(pose)) = (&observation.map, robot.pose()) else { return };
-        let info = *map.grid.info();
-        let frontiers = self.detect(&map.grid, pose);
-        let points: Vec<Point> = frontiers.iter().flat_map(|f| &f.cells).map(|&cell| info.center(cell)).collect();
-        let begin_s = robot.now_s() - robot.elapsed_s();
-        for goal in goals.iter().skip(self.goals_compared) {
-            self.comparison.add(goal.time_s - begin_s, goal.goal_in_map, &points, self.ours.clone());
-        }
-        self.goals_compared = goals.len();
     }
 
     /// Makes the pictures whose times have come.
@@ -202,57 +166,41 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    fn remember(&mut self, robot: &FileRobot, explorer: &Explorer, observation: &Observation) {
+    fn remember(&mut self, robot: &FileRobot, observation: &Observation) {
         if let Ok(pose) = &observation.pose_in_map {
             self.start.get_or_insert(*pose);
-            if self.trajectory.last().is_none_or(|&last| pose.distance_to(last) >= TRAJECTORY_STEP_M) {
-                self.trajectory.push(pose.position());
-            }
         }
         let Some(map) = &observation.map else { return };
         let cells = match &self.known {
             Some((grid, cells)) if Arc::ptr_eq(grid, &map.grid) => *cells,
-            _ => map.grid.census(&self.settings.thresholds).known(),
+            _ => {
+                if let (Some(out_bag), Some(mapping)) = (&self.out_bag, robot.player().mapping()) {
+                    out_bag.mapped(robot.now_s(), mapping, &map.grid);
+                }
+                map.grid.census(&self.settings.thresholds).known()
+            }
         };
         self.known = Some((Arc::clone(&map.grid), cells));
         self.growth.push((robot.elapsed_s(), cells, robot.distance_m()));
-        if self.frames.wants(observation.stamp_s) {
-            self.frames.push(Frame {
-                time_s: observation.stamp_s,
-                grid: Arc::clone(&map.grid),
-                pose_in_map: observation.pose_in_map.as_ref().ok().copied(),
-                trajectory_len: self.trajectory.len(),
-                frontier_points_in_map: explorer.frontiers().iter().flat_map(|f| &f.cells).copied().collect(),
-                goal_in_map: explorer.goal().map(|goal| goal.position()),
-            });
-        }
     }
 }
 
 impl Watcher<FileRobot> for Recorder<'_> {
-    fn before_step(&mut self, _: &mut Explorer, _: &Observation) {
-        self.step_began = Instant::now();
+    fn before_step(&mut self, robot: &FileRobot, explorer: &mut Explorer, observation: &Observation) {
+        self.agreement.before_step(robot.recorded_goals(), explorer, observation);
+        self.trail.before_step();
     }
 
     fn after_step(&mut self, robot: &FileRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
-        let step_ms = self.step_began.elapsed().as_secs_f64() * 1e3;
-        if let Some(record) = &decision.record {
-            self.decision_ms.push(step_ms);
-            let is_chosen = record.candidates.iter().any(|c| c.status == CandidateStatus::Chosen);
-            self.ours = record.goal.map(|goal| (goal, record.why.clone()));
-            if let (true, Some(goal)) = (is_chosen, record.goal) {
-                self.goals.push(PictureGoal { point_in_map: goal.position(), failed: false });
-            }
-            self.decisions.push(record.clone());
-            if let (Some(out_bag), Some(map)) = (&self.out_bag, &observation.map) {
-                out_bag.decided(robot.now_s(), explorer, map.grid.info().resolution_m());
-            }
+        self.trail.after_step(explorer, observation, decision);
+        self.agreement.after_step(robot.recorded_goals(), decision, observation.stamp_s);
+        if let (Some(_), Some(out_bag), Some(map)) = (&decision.record, &self.out_bag, &observation.map) {
+            out_bag.decided(robot.now_s(), explorer, map.grid.info().resolution_m());
         }
-        self.compare(robot, observation);
         if let Err(error) = self.picture(robot, observation) {
             self.failed.get_or_insert(error);
         }
-        self.remember(robot, explorer, observation);
+        self.remember(robot, observation);
         if let Some(rate) = self.rate {
             let due = Duration::from_secs_f64(robot.elapsed_s() / rate);
             std::thread::sleep(due.saturating_sub(self.began.elapsed()));

@@ -1,63 +1,73 @@
-//! The folder in which a run leaves its results.
+//! The folder in which an exploration leaves its results.
 
-use super::recorder::Recorder;
+use crate::trail::Trail;
 use anyhow::Context;
 use frontier_explorer::explore::ExplorerSettings;
+use frontier_explorer::geometry::Pose;
+use frontier_explorer::grid::OccupancyGrid;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
 use frontier_explorer::report::{Animation, FrameLog, HtmlReport, Picture, RunRecord, Theme};
-use frontier_explorer::sim::SimRobot;
 use std::path::{Path, PathBuf};
 
-/// A folder that exists.
-pub struct RunFolder(PathBuf);
+/// A folder that exists, and the name of the animation in it.
+pub struct RunFolder {
+    folder: PathBuf,
+    animation: &'static str,
+}
 
 impl RunFolder {
     /// Makes the folder if it is not there.
-    pub fn create(path: &Path) -> anyhow::Result<Self> {
+    pub fn create(path: &Path, animation: &'static str) -> anyhow::Result<Self> {
         std::fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", path.display()))?;
-        Ok(Self(path.to_owned()))
+        Ok(Self { folder: path.to_owned(), animation })
     }
 
-    /// The files of a run, the report first.
+    /// The path of a file in it.
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    /// The files of an exploration, the report first.
     pub fn files(&self) -> impl Iterator<Item = PathBuf> + '_ {
-        ["report.html", "run.json", "map.yaml", "map.pgm", "map.png", "exploration.gif"]
+        ["report.html", "run.json", "map.yaml", "map.pgm", "map.png", self.animation]
             .into_iter()
-            .map(|name| self.0.join(name))
+            .map(|name| self.path(name))
     }
 
     /// Writes all results; the map first, as it is what the run was for.
     pub fn write(
         &self,
         record: &RunRecord,
-        recorder: &Recorder,
-        sim: &SimRobot,
+        trail: &Trail,
+        grid: &OccupancyGrid,
+        end_in_map: Option<Pose>,
         settings: &ExplorerSettings,
     ) -> anyhow::Result<()> {
-        let grid = sim.map();
-        save_map(&self.0.join("map.yaml"), grid, &SaveOptions::default())?;
+        save_map(&self.path("map.yaml"), grid, &SaveOptions::default())?;
         self.save("run.json", &record.to_json()?)?;
         let picture = Picture {
             grid,
             thresholds: &settings.thresholds,
-            trajectory: &recorder.trajectory,
+            trajectory: &trail.trajectory,
             start_in_map: Some(record.start),
-            end_in_map: Some(sim.pose()),
-            goals: &recorder.goals,
+            end_in_map,
+            goals: &trail.goals,
             region: settings.region.as_ref(),
             theme: Theme::Clear,
         };
         let map_png = picture.to_png()?;
         self.save("map.png", &map_png)?;
         let animation =
-            Animation { thresholds: &settings.thresholds, trajectory: &recorder.trajectory, theme: Theme::Clear };
-        let gif = animation.to_gif(recorder.frames.iter().flat_map(FrameLog::frames))?;
-        self.save("exploration.gif", &gif)?;
+            Animation { thresholds: &settings.thresholds, trajectory: &trail.trajectory, theme: Theme::Clear };
+        let gif = animation.to_gif(trail.frames.iter().flat_map(FrameLog::frames))?;
+        self.save(self.animation, &gif)?;
         let html = HtmlReport { run: record, map_png: &map_png, animation_gif: Some(&gif), theme: Theme::Clear };
         self.save("report.html", html.to_html()?.as_bytes())
     }
 
-    fn save(&self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
-        let path = self.0.join(name);
+    /// Writes one file.
+    pub fn save(&self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+        let path = self.path(name);
         write_atomic(&path, bytes).with_context(|| format!("cannot write {}", path.display()))
     }
 }
