@@ -56,6 +56,25 @@ fn a_replay_of_our_own_run_decides_the_same() {
 }
 
 #[test]
+fn another_preset_parts_from_the_recording_and_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let bag = recorded(folder.path(), "wfd");
+    let out = folder.path().join("replay");
+    let said = replay(&bag, &out, &["--config", "liang_max_gain"]);
+    let comparison = json(&out.join("comparison.json"));
+    let partings = comparison["partings"].as_array().unwrap();
+    assert!(!partings.is_empty(), "{said}");
+    let is_told = |parting: &Value| {
+        let cause = parting["cause"].as_str().unwrap();
+        !cause.is_empty() && parting["time_s"].as_f64().unwrap() <= 121.0 && said.contains(cause)
+    };
+    assert!(partings.iter().all(is_told), "{partings:?}\n{said}");
+    // The recording's goals are there, with their ends.
+    let goals = comparison["recorded_goals"].as_array().unwrap();
+    assert!(goals.iter().filter(|goal| goal["end"][1] == "reached").count() >= 3, "{goals:?}");
+}
+
+#[test]
 fn a_bag_without_a_map_gets_one() {
     let folder = tempfile::tempdir().unwrap();
     let bag = recorded(folder.path(), "liang");

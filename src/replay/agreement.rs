@@ -18,13 +18,13 @@ const AT_FRONTIER_M: f64 = 1.0;
 /// A decision that the recording did not make, or one of the recording that we did not.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parting {
-    /// When, seconds of the bag.
+    /// When, seconds since the bag's begin.
     pub time_s: f64,
     /// Where we would have gone.
     pub our_goal: Option<Pose>,
     /// Where the recording went.
     pub recorded_goal: Option<Pose>,
-    /// When it was sent there, seconds of the bag.
+    /// When it was sent there, seconds since the bag's begin.
     pub recorded_at_s: Option<f64>,
     /// Why we decided so.
     pub why: String,
@@ -72,6 +72,9 @@ pub struct Agreement {
     apart_since_s: Option<f64>,
     #[serde(skip)]
     last: Option<DecisionRecord>,
+    /// When maps came, by their stamps.
+    #[serde(skip)]
+    maps: Vec<(f64, f64)>,
 }
 
 impl Agreement {
@@ -79,6 +82,11 @@ impl Agreement {
     /// have parted.
     pub fn before_step(&mut self, goals: &RecordedGoals, explorer: &mut Explorer, observation: &Observation) {
         let now_s = observation.stamp_s;
+        if let Some(map) = &observation.map
+            && self.maps.last().is_none_or(|&(_, stamp_s)| stamp_s != map.stamp_s)
+        {
+            self.maps.push((now_s, map.stamp_s));
+        }
         self.see(goals, explorer);
         self.settle(goals, now_s);
         let theirs = goals.in_force();
@@ -170,6 +178,14 @@ impl Agreement {
         self.part(record.time_s, record.goal, theirs, Some(record), "it had no goal");
     }
 
+    /// Whether a map came between our decision and the recording's, made about then.
+    fn is_another_map(&self, ours_s: f64, theirs_s: Option<f64>) -> bool {
+        let Some(theirs_s) = theirs_s.filter(|theirs_s| (theirs_s - ours_s).abs() <= LAG_S) else { return false };
+        let (first_s, second_s) = (ours_s.min(theirs_s), ours_s.max(theirs_s));
+        // We decide in the moment in which a map comes: that one is ours.
+        self.maps.iter().any(|&(came_s, _)| came_s >= first_s && came_s <= second_s && theirs_s != ours_s)
+    }
+
     fn part(
         &mut self,
         time_s: f64,
@@ -180,6 +196,13 @@ impl Agreement {
     ) {
         let (recorded_goal, recorded_at_s) = (theirs.map(|goal| goal.goal_in_map), theirs.map(|goal| goal.time_s));
         let (cause, detail) = match (record, &recorded_goal) {
+            (Some(_), Some(_)) if self.is_another_map(time_s, recorded_at_s) => {
+                let by_s = recorded_at_s.unwrap_or(time_s) - time_s;
+                (
+                    "it decided on another map",
+                    format!("{:.1} s {}", by_s.abs(), if by_s < 0.0 { "before" } else { "after" }),
+                )
+            }
             (Some(record), Some(theirs)) => cause(record, theirs),
             _ => (otherwise, String::new()),
         };

@@ -21,13 +21,13 @@ pub enum GoalEnd {
 /// A goal that the recording was sent to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordedGoal {
-    /// When, seconds of the bag.
+    /// When, seconds since the bag's begin.
     pub time_s: f64,
     /// Where to, in the map frame.
     pub goal_in_map: Pose,
     /// Where the robot stands already: it is told to turn.
     pub is_turn: bool,
-    /// When it ended, seconds of the bag, and how.
+    /// When it ended, seconds since the bag's begin, and how.
     pub end: Option<(f64, GoalEnd)>,
     #[serde(skip)]
     id: String,

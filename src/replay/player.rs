@@ -38,9 +38,11 @@ pub enum PlayError {
     Map(#[from] MapperError),
 }
 
-/// Plays a bag and keeps what it says.
+/// Plays a bag and keeps what it says. All times are seconds since the bag's begin.
 pub struct Player<R> {
     playback: Playback<R>,
+    /// The bag's begin, seconds since 1970.
+    begin_s: f64,
     inputs: Inputs,
     transforms: TransformBuffer,
     /// Header time minus recorded time, seconds, where the clocks differ.
@@ -62,6 +64,7 @@ impl<R: Read + Seek> Player<R> {
     pub fn new(input: R, summary: &Summary, inputs: Inputs) -> Result<Self, BagError> {
         Ok(Self {
             playback: Playback::new(input, summary)?,
+            begin_s: seconds(summary.start),
             goals: RecordedGoals::new(inputs.results_topic.is_some()),
             mapping: None,
             inputs,
@@ -86,27 +89,27 @@ impl<R: Read + Seek> Player<R> {
         self.inputs.forget_map();
     }
 
-    /// Plays all messages up to a time in seconds, but no further than a map or a result:
+    /// Plays all messages up to a time, but no further than a map or a result:
     /// those wake the node too. The time that was reached.
     ///
     /// # Errors
     /// [`PlayError`] when the bag cannot be read, or mapped.
     pub fn play_to(&mut self, until_s: f64) -> Result<f64, PlayError> {
-        let until = nanos(until_s);
+        let until = nanos(self.begin_s + until_s);
         while let Some(time) = self.playback.peek()?.filter(|&time| time <= until) {
             if self.play_one()? {
-                return Ok(seconds(time));
+                return Ok(self.since_begin_s(time));
             }
         }
         Ok(until_s)
     }
 
-    /// When the next message was recorded, seconds; `None` at the end.
+    /// When the next message was recorded; `None` at the end.
     ///
     /// # Errors
     /// [`PlayError`] when the bag cannot be read.
     pub fn next_time_s(&mut self) -> Result<Option<f64>, PlayError> {
-        Ok(self.playback.peek()?.map(seconds))
+        Ok(self.playback.peek()?.map(|time| self.since_begin_s(time)))
     }
 
     /// Plays one message; whether it is news that the node would wake for.
@@ -115,8 +118,9 @@ impl<R: Read + Seek> Player<R> {
         if let Some(tap) = &mut self.tap {
             tap(&message);
         }
-        let time_s = seconds(message.time);
-        match Told::of(&self.inputs, message.connection, message.data) {
+        let told = Told::of(&self.inputs, message.connection, message.data);
+        let time_s = seconds(message.time) - self.begin_s;
+        match told {
             None => Ok(false),
             Some(Ok(told)) => {
                 let is_news = matches!(told, Told::Map(_) | Told::Patch(_) | Told::Result(_));
@@ -132,7 +136,7 @@ impl<R: Read + Seek> Player<R> {
 
     fn learn(&mut self, told: Told, time_s: f64) -> Result<(), PlayError> {
         match told {
-            Told::Transforms { samples, is_static } => self.learn_transforms(&samples, is_static, time_s),
+            Told::Transforms { samples, is_static } => self.learn_transforms(samples, is_static, time_s),
             Told::Map(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
                 self.map = Some(MapSnapshot { stamp_s, grid: Arc::new(message.grid), costmap: None });
@@ -157,20 +161,35 @@ impl<R: Read + Seek> Player<R> {
         Ok(())
     }
 
-    fn learn_transforms(&mut self, samples: &[TransformSample], is_static: bool, time_s: f64) {
-        for sample in samples {
-            if !is_static && sample.stamp_s > 0.0 {
-                let difference_s = sample.stamp_s - time_s;
-                let differs = difference_s.abs() > CLOCKS_DIFFER_S;
-                self.offset_s.get_or_insert(if differs { difference_s } else { 0.0 });
+    fn learn_transforms(&mut self, samples: Vec<TransformSample>, is_static: bool, time_s: f64) {
+        for mut sample in samples {
+            let is_stamped = sample.stamp_s > 0.0;
+            sample.stamp_s -= self.begin_s;
+            if !is_static && is_stamped {
+                self.learn_clock(sample.stamp_s - time_s);
             }
             // What cannot be a transform is left out, as tf2 does.
-            let _ = self.transforms.insert(sample, is_static);
+            let _ = self.transforms.insert(&sample, is_static);
         }
     }
 
+    /// Another clock's difference is that of the latest stamps: some nodes stamp ahead of
+    /// their time.
+    fn learn_clock(&mut self, difference_s: f64) {
+        let differs = difference_s.abs() > CLOCKS_DIFFER_S;
+        let offset_s = self.offset_s.get_or_insert(if differs { difference_s } else { 0.0 });
+        if differs && (*offset_s - difference_s).abs() <= CLOCKS_DIFFER_S {
+            *offset_s = offset_s.min(difference_s);
+        }
+    }
+
+    fn since_begin_s(&self, time: Nanos) -> f64 {
+        seconds(time) - self.begin_s
+    }
+
     /// Keeps a scan, and takes it into the map that is made here.
-    fn learn_scan(&mut self, message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
+    fn learn_scan(&mut self, mut message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
+        message.scan.stamp_s -= self.begin_s;
         if let Some(mapping) = &mut self.mapping {
             let taken = mapping.add(message.clone(), &self.transforms)?;
             let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
@@ -188,7 +207,7 @@ impl<R: Read + Seek> Player<R> {
     /// The time of a header by the recording's clock where that can be, else when it was
     /// recorded.
     fn stamp_s(&self, header: Nanos, recorded_s: f64) -> f64 {
-        let header_s = seconds(header) - self.offset_s.unwrap_or(0.0);
+        let header_s = self.since_begin_s(header) - self.offset_s.unwrap_or(0.0);
         if (0.0..=30.0).contains(&(recorded_s - header_s)) { header_s } else { recorded_s }
     }
 
@@ -206,7 +225,7 @@ impl<R: Read + Seek> Player<R> {
         self.mapping.as_ref().map_or(pose, |mapping| mapping.odom_in_map().compose(&pose))
     }
 
-    /// Where the robot was, as tf told it until a time in seconds.
+    /// Where the robot was, as tf told it until a time.
     ///
     /// # Errors
     /// [`PoseError`] when no transform leads there, or the newest is too old.

@@ -9,7 +9,7 @@
 
 use super::goals::{GoalEnd, RecordedGoals};
 use super::player::{PlayError, Player};
-use crate::bag::{Summary, seconds};
+use crate::bag::Summary;
 use crate::geometry::{Pose, shortest_angle};
 use crate::robot::{Command, Navigation, NavigationState, Observation, Robot, RobotError};
 use std::io::{Read, Seek};
@@ -49,10 +49,9 @@ enum Aim {
     },
 }
 
-/// A bag behind the port.
+/// A bag behind the port. All times are seconds since the bag's begin.
 pub struct BagRobot<R> {
     player: Player<R>,
-    start_s: f64,
     end_s: f64,
     now_s: f64,
     task: Option<Task>,
@@ -66,19 +65,8 @@ impl<R: Read + Seek> BagRobot<R> {
     /// A recording from its begin to `until_s` seconds after it, or to its end.
     #[must_use]
     pub fn new(player: Player<R>, summary: &Summary, until_s: Option<f64>) -> Self {
-        let start_s = seconds(summary.start);
-        let end_s = until_s.map_or(seconds(summary.end), |until_s| (start_s + until_s).min(seconds(summary.end)));
-        Self {
-            player,
-            start_s,
-            end_s,
-            now_s: start_s,
-            task: None,
-            pose: None,
-            distance_m: 0.0,
-            turned_rad: 0.0,
-            has_begun: false,
-        }
+        let end_s = until_s.map_or(summary.duration_s(), |until_s| until_s.min(summary.duration_s()));
+        Self { player, end_s, now_s: 0.0, task: None, pose: None, distance_m: 0.0, turned_rad: 0.0, has_begun: false }
     }
 
     /// What plays the bag.
@@ -87,22 +75,16 @@ impl<R: Read + Seek> BagRobot<R> {
         &self.player
     }
 
-    /// Time of the bag, seconds.
+    /// The time of the last observation.
     #[must_use]
     pub const fn now_s(&self) -> f64 {
         self.now_s
     }
 
-    /// Time since the bag's begin, seconds.
+    /// The whole time.
     #[must_use]
-    pub fn elapsed_s(&self) -> f64 {
-        self.now_s - self.start_s
-    }
-
-    /// The whole time, seconds.
-    #[must_use]
-    pub fn duration_s(&self) -> f64 {
-        self.end_s - self.start_s
+    pub const fn duration_s(&self) -> f64 {
+        self.end_s
     }
 
     /// Where the robot was when that was last known.

@@ -4,7 +4,6 @@ use crate::commands::bag;
 use crate::exit::Outcome;
 use crate::{output, values};
 use anyhow::{Context, bail};
-use frontier_explorer::bag::seconds;
 use frontier_explorer::geometry::Point;
 use frontier_explorer::grid::Thresholds;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
@@ -61,7 +60,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone())?;
     player.map_scans(config);
     let mut way: Vec<Point> = Vec::new();
-    let (mut now_s, mut last) = (seconds(summary.start), None);
+    let (mut now_s, mut last) = (0.0, None);
     while let Some(next_s) = player.next_time_s()? {
         now_s = player.play_to(next_s.max(now_s + LOOK_S))?;
         if let Ok(pose) = player.pose(now_s) {

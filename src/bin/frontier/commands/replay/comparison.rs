@@ -7,8 +7,8 @@ use frontier_explorer::replay::{Agreement, Parting};
 /// So many partings are printed.
 const PRINTED: usize = 5;
 
-/// Prints how far the two agree, and where they part; the bag begins at `begin_s`.
-pub fn print(agreement: &Agreement, begin_s: f64) -> anyhow::Result<()> {
+/// Prints how far the two agree, and where they part.
+pub fn print(agreement: &Agreement) -> anyhow::Result<()> {
     let Some(share) = agreement.share() else {
         return output::line(format_args!("the bag holds no goals to compare with"));
     };
@@ -31,7 +31,7 @@ pub fn print(agreement: &Agreement, begin_s: f64) -> anyhow::Result<()> {
         let detail = if detail.is_empty() { String::new() } else { format!(" ({detail})") };
         output::line(format_args!(
             "  at {:.1} s we {}, it {}: {cause}{detail}",
-            time_s - begin_s,
+            time_s,
             place(our_goal.as_ref()),
             place(recorded_goal.as_ref())
         ))?;

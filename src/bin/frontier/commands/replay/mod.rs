@@ -101,7 +101,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         player.map_scans(config);
     }
     let out_bag = match &args.out_bag {
-        Some(path) => Some(OutBag::create(path, &found)?),
+        Some(path) => Some(OutBag::create(path, &found, summary.start)?),
         None => None,
     };
     if let Some(out_bag) = &out_bag {
@@ -176,7 +176,7 @@ fn report(
     if !robot.has_begun() {
         output::line(format_args!("warning: there was never a map with the robot's place in it: nothing was decided"))?;
     }
-    comparison::print(&recorder.agreement, robot.now_s() - robot.elapsed_s())?;
+    comparison::print(&recorder.agreement)?;
     if let Some(mapping) = robot.player().mapping() {
         super::map::tell_scans(mapping)?;
     }

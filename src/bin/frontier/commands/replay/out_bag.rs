@@ -2,8 +2,8 @@
 
 use crate::bag_file::BagFile;
 use frontier_explorer::bag::{
-    Connection, Header, MessageType, PlayedMessage, map_message, marker_message, nanos, path_message, pose_message,
-    tf_message,
+    Connection, Header, MessageType, Nanos, PlayedMessage, map_message, marker_message, nanos, path_message,
+    pose_message, seconds, tf_message,
 };
 use frontier_explorer::explore::Explorer;
 use frontier_explorer::geometry::Point;
@@ -20,6 +20,8 @@ const MADE_FRAME: &str = "frontier_map";
 
 struct Inner {
     file: BagFile,
+    /// The bag's begin.
+    begin: Nanos,
     inputs: Inputs,
     /// Numbers of the recorded connections, by topic and publisher.
     copied: BTreeMap<(String, String), u32>,
@@ -38,7 +40,7 @@ pub struct OutBag {
 
 impl OutBag {
     /// Begins it.
-    pub fn create(path: &Path, inputs: &Inputs) -> anyhow::Result<Self> {
+    pub fn create(path: &Path, inputs: &Inputs, begin: Nanos) -> anyhow::Result<Self> {
         let mut file = BagFile::create(path)?;
         let (frontiers, goal, path) = (
             file.topic("/explore/frontiers", MessageType::Markers, true),
@@ -48,7 +50,7 @@ impl OutBag {
         let is_made = inputs.map_topic.is_none();
         let made = is_made
             .then(|| (file.topic("/map", MessageType::Map, true), file.topic("/tf", MessageType::Transforms, false)));
-        let inner = Inner { file, inputs: inputs.clone(), copied: BTreeMap::new(), seq: 0 };
+        let inner = Inner { file, begin, inputs: inputs.clone(), copied: BTreeMap::new(), seq: 0 };
         Ok(Self { inner: Rc::new(RefCell::new(inner)), frontiers, goal, path, made })
     }
 
@@ -60,11 +62,11 @@ impl OutBag {
 
     /// Writes the outcome of a decision.
     pub fn decided(&self, now_s: f64, explorer: &Explorer, edge_m: f64) {
-        let Inner { file, inputs, seq, .. } = &mut *self.inner.borrow_mut();
+        let Inner { file, begin, inputs, seq, .. } = &mut *self.inner.borrow_mut();
         *seq = seq.wrapping_add(1);
         let frame =
             if self.made.is_some() { MADE_FRAME.to_owned() } else { inputs.map_frame.clone().unwrap_or_default() };
-        let header = Header { seq: *seq, stamp: nanos(now_s), frame };
+        let header = Header { seq: *seq, stamp: *begin + nanos(now_s), frame };
         let points: Vec<Point> = explorer.frontiers().iter().flat_map(|f| &f.cells).copied().collect();
         file.put(self.frontiers, header.stamp, &marker_message(&header, "frontiers", edge_m, &points));
         if let Some(pose) = explorer.goal() {
@@ -77,15 +79,17 @@ impl OutBag {
 
     /// Writes the map that is made here.
     pub fn mapped(&self, now_s: f64, mapping: &ScanMapping, grid: &OccupancyGrid) {
-        let (Some((map, tf)), Inner { file, inputs, seq, .. }) = (self.made, &mut *self.inner.borrow_mut()) else {
+        let (Some((map, tf)), Inner { file, begin, inputs, seq, .. }) = (self.made, &mut *self.inner.borrow_mut())
+        else {
             return;
         };
         *seq = seq.wrapping_add(1);
-        let header = Header { seq: *seq, stamp: nanos(now_s), frame: MADE_FRAME.to_owned() };
+        let header = Header { seq: *seq, stamp: *begin + nanos(now_s), frame: MADE_FRAME.to_owned() };
         file.put(map, header.stamp, &map_message(&header, grid));
         let odom = inputs.odom_frame.clone().unwrap_or_default();
         // Below odometry, as a frame has one parent: a recorded map may be above it.
-        let map_in_odom = TransformSample::planar(now_s, &odom, MADE_FRAME, &mapping.odom_in_map().inverse());
+        let map_in_odom =
+            TransformSample::planar(seconds(header.stamp), &odom, MADE_FRAME, &mapping.odom_in_map().inverse());
         file.put(tf, header.stamp, &tf_message(&[map_in_odom]));
     }
 

@@ -104,7 +104,7 @@ impl<'a> Recorder<'a> {
             end_reason: end.reason,
             end_message: end.message.clone(),
             coverage: share(known),
-            sim_time_s: robot.elapsed_s(),
+            sim_time_s: robot.now_s(),
             distance_m: robot.distance_m(),
             turned_rad: robot.turned_rad(),
             goals_sent: counts.goals_sent,
@@ -141,7 +141,7 @@ impl<'a> Recorder<'a> {
     fn picture(&mut self, robot: &FileRobot, observation: &Observation) -> anyhow::Result<()> {
         while let Some(&at_s) = self.at.last() {
             let (Some(map), Some(pose)) = (&observation.map, robot.pose()) else { return Ok(()) };
-            if robot.elapsed_s() < at_s {
+            if robot.now_s() < at_s {
                 return Ok(());
             }
             self.at.pop();
@@ -181,7 +181,7 @@ impl<'a> Recorder<'a> {
             }
         };
         self.known = Some((Arc::clone(&map.grid), cells));
-        self.growth.push((robot.elapsed_s(), cells, robot.distance_m()));
+        self.growth.push((robot.now_s(), cells, robot.distance_m()));
     }
 }
 
@@ -202,7 +202,7 @@ impl Watcher<FileRobot> for Recorder<'_> {
         }
         self.remember(robot, observation);
         if let Some(rate) = self.rate {
-            let due = Duration::from_secs_f64(robot.elapsed_s() / rate);
+            let due = Duration::from_secs_f64(robot.now_s() / rate);
             std::thread::sleep(due.saturating_sub(self.began.elapsed()));
         }
     }
