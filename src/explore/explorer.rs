@@ -6,16 +6,17 @@
 //! reorder the goals, or reconsider them on the way, as the other papers ask.
 
 mod follow;
+mod pause;
 
 use super::blacklist::Blacklist;
 use super::decide::Lookout;
 use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontier};
 use super::settings::{ExplorerSettings, SettingsError};
-use super::state::{Decision, Phase, State, has_ended};
+use super::state::{Decision, State, has_ended};
 use crate::geometry::{Body, Path, Point, Polygon, Pose};
 use crate::grid::Inflation;
 use crate::planning::GlobalPlanner;
-use crate::robot::{Command, CommandId, MapSnapshot, NavigationState, Observation};
+use crate::robot::{CommandId, MapSnapshot, NavigationState, Observation};
 
 /// The longest that a turn may take, seconds; then the run goes on without it.
 const TURN_TIMEOUT_S: f64 = 60.0;
@@ -145,47 +146,6 @@ impl Explorer {
         end
     }
 
-    /// Holds while the robot does not know where it is: no pose is made up.
-    fn pause_without_pose(&mut self, now_s: f64, error: &str) -> Decision {
-        let since_s = *self.pose_lost_since_s.get_or_insert(now_s);
-        if now_s - since_s >= self.settings.patience.pose_timeout_s {
-            self.end_now(EndReason::NoPose, now_s, error);
-        }
-        if let State::Driving(drive) = &mut self.state {
-            drive.progress.pause(now_s);
-        }
-        let mut decision = self.state.decision(None);
-        if decision.end.is_none() {
-            decision.phase = Phase::WaitingForPose;
-            decision.command = Command::Hold;
-        }
-        decision
-    }
-
-    /// Why nobody carries out the command under way, if that is so.
-    fn unavailable(&self, observation: &Observation) -> Option<String> {
-        let ours = self.state.command_id() == Some(observation.navigation.command);
-        match &observation.navigation.state {
-            NavigationState::Unavailable(why) if ours => Some(why.clone()),
-            _ => None,
-        }
-    }
-
-    /// Goes on asking while nobody is there to carry the command out: the goal is not
-    /// to blame, and its time stands still.
-    fn pause_without_navigation(&mut self, now_s: f64, why: &str) -> Decision {
-        let since_s = *self.navigation_lost_since_s.get_or_insert(now_s);
-        if now_s - since_s >= self.settings.patience.navigation_timeout_s {
-            self.end_now(EndReason::NoNavigation, now_s, why);
-        }
-        self.state.restart_timers(now_s);
-        let mut decision = self.state.decision(None);
-        if decision.end.is_none() {
-            decision.phase = Phase::WaitingForNavigation;
-        }
-        decision
-    }
-
     /// Moves the state on, at most a few times in one tick.
     fn advance(&mut self, observation: &Observation, pose: Pose) -> Option<DecisionRecord> {
         let now_s = observation.stamp_s;
@@ -297,16 +257,6 @@ impl Explorer {
 
     fn settle(&mut self, now_s: f64, map_after_s: f64) {
         self.state = State::Settling { map_after_s, since_s: now_s };
-    }
-
-    /// No map, or none that can be used: ends the run when that lasts.
-    fn wait_for_map(&mut self, now_s: f64, why: &str) {
-        let since_s = *self.map_lost_since_s.get_or_insert(now_s);
-        if now_s - since_s >= self.settings.patience.map_timeout_s {
-            self.end_now(EndReason::NoMap, now_s, why);
-        } else {
-            self.settle(now_s, now_s);
-        }
     }
 
     const fn next_id(&mut self) -> CommandId {

@@ -1,11 +1,12 @@
 //! The state machine, driven by a robot that jumps to its goals.
 
+use super::super::state::Phase;
 use super::*;
 use crate::explore::{PatienceSettings, TurnSettings};
 use crate::geometry::{Footprint, MotionLimits};
 use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
 use crate::planning::{HybridAstarConfig, PlannerConfig};
-use crate::robot::{Navigation, PoseError};
+use crate::robot::{Command, Navigation, PoseError};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

@@ -79,6 +79,30 @@ impl OccupancyGrid {
     }
 }
 
+impl GridPatch {
+    /// The smallest rectangle of `new` that holds all in which it differs from `old`, a grid
+    /// of the same size; `None` where they are equal.
+    #[must_use]
+    pub fn difference(old: &OccupancyGrid, new: &OccupancyGrid) -> Option<Self> {
+        let width = new.info().width();
+        let rows = || old.data().chunks_exact(width).zip(new.data().chunks_exact(width));
+        let changed: Vec<usize> = rows().enumerate().filter(|(_, (a, b))| a != b).map(|(y, _)| y).collect();
+        let (&bottom, &top) = (changed.first()?, changed.last()?);
+        let columns = rows().flat_map(|(a, b)| {
+            let differs = |&x: &usize| a.get(x) != b.get(x);
+            [(0..width).find(differs), (0..width).rfind(differs)].into_iter().flatten()
+        });
+        let (left, right) = columns.fold((width, 0), |(low, high), x| (low.min(x), high.max(x)));
+        let data = new.data().chunks_exact(width).skip(bottom).take(top + 1 - bottom);
+        Some(Self {
+            corner: Cell::new(left as i32, bottom as i32),
+            width: (right + 1 - left) as u32,
+            height: (top + 1 - bottom) as u32,
+            data: data.flat_map(|row| row.get(left..=right).unwrap_or_default().iter().copied()).collect(),
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,6 +125,20 @@ mod tests {
         grid.apply(&patch(0, 0, 0, 2)).unwrap();
         grid.apply(&patch(0, 0, 4, 3)).unwrap();
         assert_eq!(grid.data(), [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+    }
+
+    #[test]
+    fn a_difference_laid_on_the_old_grid_gives_the_new_one() {
+        let old = grid();
+        assert_eq!(GridPatch::difference(&old, &old), None);
+        let mut new = old.clone();
+        new.set(Cell::new(1, 2), 100);
+        new.set(Cell::new(3, 1), 0);
+        let difference = GridPatch::difference(&old, &new).unwrap();
+        assert_eq!((difference.corner, difference.width, difference.height), (Cell::new(1, 1), 3, 2));
+        let mut patched = old;
+        patched.apply(&difference).unwrap();
+        assert_eq!(patched, new);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Which topics and frames of a bag are the explorer's inputs: as the user says, and else
 //! as their types and names tell.
 
+use super::guess::{base_frame, best, frames, map_frame, map_rank, odom_frame};
 use crate::bag::{MessageType, Summary};
 use crate::tf::frame_name;
 use serde::Serialize;
@@ -140,11 +141,6 @@ impl Inputs {
     }
 }
 
-/// All frames that tf names.
-fn frames(summary: &Summary) -> BTreeSet<&str> {
-    summary.tf.iter().flat_map(|(child, link)| [child.as_str(), link.parent.as_str()]).collect()
-}
-
 fn known(frames: &BTreeSet<&str>, frame: &str) -> Result<String, InputError> {
     let name = frame_name(frame);
     if frames.contains(name) {
@@ -170,77 +166,6 @@ fn given(summary: &Summary, topic: &str, kind: MessageType) -> Result<String, In
 fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.collect();
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
-/// The topic of a type with the lowest rank, and among those the most messages.
-fn best(summary: &Summary, kind: MessageType, rank: impl Fn(&str) -> Option<u32>) -> Option<String> {
-    let topics = summary.topics_of(kind);
-    let ranked = topics.iter().filter_map(|t| rank(&t.topic).map(|rank| (rank, t)));
-    ranked.min_by_key(|(rank, _)| *rank).map(|(_, t)| t.topic.clone())
-}
-
-/// A map is called so; a costmap is none, unless there is nothing else.
-fn map_rank(topic: &str) -> Option<u32> {
-    let last = topic.rsplit('/').next().unwrap_or_default();
-    Some(match last {
-        "map" if topic == "/map" => 0,
-        "map" => 1,
-        _ if topic.contains("local_costmap") => return None,
-        _ if topic.contains("costmap") => 3,
-        _ => 2,
-    })
-}
-
-/// The frame in the map's headers; without a map, the root above `odom`, or `odom`.
-fn map_frame(summary: &Summary, map_topic: Option<&str>) -> Option<String> {
-    let headers = map_topic.and_then(|topic| summary.topics.iter().find(|t| t.topic == topic));
-    if let Some(frame) = headers.and_then(|t| t.frames.first()) {
-        return Some(frame_name(frame).to_owned());
-    }
-    let frames = frames(summary);
-    let odom = frames.iter().find(|name| name.rsplit('/').next() == Some("odom"));
-    if let Some(odom) = odom {
-        return Some((*odom).to_owned());
-    }
-    // The root of the tree with the most transforms.
-    let moving = summary.tf.iter().filter(|(_, link)| !link.is_static).max_by_key(|(_, link)| link.messages);
-    moving.map(|(child, _)| chain(summary, child).last().map_or(child.as_str(), |&root| root).to_owned())
-}
-
-/// The frames above one, the nearest first.
-fn chain<'a>(summary: &'a Summary, frame: &str) -> Vec<&'a str> {
-    let mut above = Vec::new();
-    let mut at = frame;
-    while let Some(link) = summary.tf.get(at) {
-        if above.len() > 64 {
-            break;
-        }
-        above.push(link.parent.as_str());
-        at = &link.parent;
-    }
-    above
-}
-
-/// The frame above the robot that is called `odom`.
-fn odom_frame(summary: &Summary, base_frame: &str) -> Option<String> {
-    let above = chain(summary, base_frame);
-    above.into_iter().find(|name| name.rsplit('/').next() == Some("odom")).map(str::to_owned)
-}
-
-/// The robot's frame: named as REP 105 has it, or the frame below the map in which most of
-/// the tree hangs.
-fn base_frame(summary: &Summary, map_frame: &str) -> Option<String> {
-    let root = |frame: &str| chain(summary, frame).last().map_or_else(|| frame.to_owned(), |&root| root.to_owned());
-    let tree = root(map_frame);
-    let names: Vec<&str> = summary.tf.keys().map(String::as_str).filter(|name| root(name) == tree).collect();
-    for usual in ["base_footprint", "base_link", "base"] {
-        if let Some(found) = names.iter().find(|name| name.rsplit('/').next() == Some(usual)) {
-            return Some((*found).to_owned());
-        }
-    }
-    let below = names.into_iter().filter(|name| chain(summary, name).contains(&map_frame));
-    let moving = below.filter(|name| summary.tf.get(*name).is_some_and(|link| !link.is_static));
-    moving.max_by_key(|name| (chain(summary, name).len(), std::cmp::Reverse(*name))).map(str::to_owned)
 }
 
 #[cfg(test)]

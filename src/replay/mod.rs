@@ -3,6 +3,7 @@
 
 mod agreement;
 mod goals;
+mod guess;
 mod inputs;
 mod player;
 mod robot;

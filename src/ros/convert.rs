@@ -131,6 +131,13 @@ pub fn patch(message: map_msgs::OccupancyGridUpdate) -> GridPatch {
     GridPatch { corner: Cell::new(x, y), width, height, data }
 }
 
+/// An update with the values of a rectangle.
+#[must_use]
+pub fn patch_message(patch: GridPatch, frame: &str, stamp_s: f64) -> map_msgs::OccupancyGridUpdate {
+    let GridPatch { corner: Cell { x, y }, width, height, data } = patch;
+    map_msgs::OccupancyGridUpdate { header: header(frame, stamp_s), x, y, width, height, data }
+}
+
 /// A scan, in the frame of a lidar that stands upright. One that hangs upside down
 /// sweeps the other way round.
 #[must_use]

@@ -23,6 +23,7 @@ mod pilot;
 mod program;
 mod region;
 mod robot;
+mod robot_map;
 mod scan_feed;
 mod sim_node;
 pub mod stop;

@@ -3,18 +3,16 @@
 use super::bell::Bell;
 use super::clock::RunClock;
 use super::log::Level;
-use super::map_feed::{MapFeed, ReceivedMap};
+use super::map_feed::ReceivedMap;
 use super::move_base::MoveBase;
 use super::node::Node;
 use super::pilot::Pilot;
+use super::robot_map::RobotMap;
 use super::scan_feed::ScanFeed;
 use super::transforms::Transforms;
 use super::turn_goals::TurnGoals;
 use crate::geometry::Pose;
-use crate::grid::{Costmap, Inflation, Thresholds};
-use crate::robot::{
-    Command, CommandId, MapSnapshot, Navigation, NavigationState, Observation, PoseError, Robot, RobotError,
-};
+use crate::robot::{Command, CommandId, Navigation, NavigationState, Observation, PoseError, Robot, RobotError};
 use crate::scan::LaserScan;
 use std::mem::Discriminant;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,18 +36,12 @@ pub struct RosRobotConfig {
     pub turn_by_goals: bool,
     /// Ask move_base to clear its costmaps when a goal failed.
     pub clear_costmaps: bool,
-    /// What is free and occupied.
-    pub thresholds: Thresholds,
-    /// The inflation of our own costmap.
-    pub inflation: Inflation,
 }
 
 /// The parts of the robot that are connected already.
 pub struct Connections {
-    /// Its map.
-    pub map: MapFeed,
-    /// Its global costmap, where it is not made here.
-    pub costmap: Option<MapFeed>,
+    /// Its map and costmap.
+    pub map: RobotMap,
     /// Its frames.
     pub transforms: Arc<Transforms>,
     /// Its scans, where they are needed.
@@ -88,7 +80,6 @@ pub struct RosRobot {
     next_tick_s: f64,
     clock_moved: Instant,
     task: Task,
-    map: Option<KnownMap>,
     /// The map is new in this observation.
     map_is_new: bool,
     latencies_ms: Vec<f64>,
@@ -97,13 +88,6 @@ pub struct RosRobot {
     trouble: Option<Discriminant<PoseError>>,
     /// A map and the robot's place in it have been known.
     has_begun: bool,
-}
-
-/// The map as the explorer sees it.
-struct KnownMap {
-    version: (u64, u64),
-    snapshot: MapSnapshot,
-    received: ReceivedMap,
 }
 
 impl RosRobot {
@@ -118,7 +102,6 @@ impl RosRobot {
             next_tick_s: f64::NEG_INFINITY,
             clock_moved: Instant::now(),
             task: Task::None,
-            map: None,
             map_is_new: false,
             latencies_ms: Vec::new(),
             pose: None,
@@ -130,7 +113,7 @@ impl RosRobot {
     /// The newest map, as it came.
     #[must_use]
     pub fn received_map(&self) -> Option<&ReceivedMap> {
-        self.map.as_ref().map(|known| &known.received)
+        self.parts.map.received()
     }
 
     /// Milliseconds from a map's arrival to the goal that it led to.
@@ -196,39 +179,18 @@ impl RosRobot {
         }
     }
 
-    /// Takes in the newest map and costmap, if they changed.
+    /// Takes in the newest map and costmap, and tells who else needs them.
     fn take_map(&mut self) {
-        self.map_is_new = false;
-        let map = self.parts.map.newest();
-        let costmap = self.parts.costmap.as_mut().map(MapFeed::newest);
-        let Some(received) = map else { return };
-        // A costmap that is to come is waited for.
-        if matches!(costmap, Some(None)) {
-            let topic = self.parts.costmap.as_ref().map_or("", MapFeed::topic);
-            self.node.log().once(Level::Warn, format_args!("a map has come; waiting for the costmap on {topic}"));
-            return;
+        self.map_is_new = self.parts.map.take_newest(&self.node, &self.clock);
+        let (Some(received), Some(snapshot)) = (self.parts.map.received(), self.parts.map.snapshot()) else { return };
+        if let (true, Some(costmap)) = (self.map_is_new, &snapshot.costmap) {
+            self.parts.pilot.set_costmap(&received.frame, Arc::clone(costmap), received.stamp_s);
+            received.frame.clone_into(&mut self.parts.map_frame.lock().unwrap_or_else(PoisonError::into_inner));
         }
-        let costmap = costmap.flatten();
-        let version = (received.version, costmap.as_ref().map_or(0, |costmap| costmap.version));
-        if self.map.as_ref().is_some_and(|known| known.version == version) {
-            return;
-        }
-        let grid = Arc::clone(&received.grid);
-        let costmap = match costmap {
-            Some(costmap) => Costmap::from_published(&costmap.grid).on_grid(grid.info()),
-            None => Costmap::inflate(&grid, &self.config.thresholds, &self.config.inflation),
-        };
-        let costmap = Arc::new(costmap);
-        let stamp_s = self.clock.of(received.stamp_s);
-        self.parts.pilot.set_costmap(&received.frame, Arc::clone(&costmap), received.stamp_s);
-        received.frame.clone_into(&mut self.parts.map_frame.lock().unwrap_or_else(PoisonError::into_inner));
-        let snapshot = MapSnapshot { stamp_s, grid, costmap: Some(costmap) };
-        self.map = Some(KnownMap { version, snapshot, received });
-        self.map_is_new = true;
     }
 
     fn locate(&mut self, ros_s: f64) -> Result<Pose, PoseError> {
-        let frame = self.map.as_ref().map_or("map", |known| known.received.frame.as_str());
+        let frame = self.parts.map.frame();
         let RosRobotConfig { base_frame, transform_tolerance_s, .. } = &self.config;
         let pose = self.parts.transforms.robot(frame, base_frame, ros_s, *transform_tolerance_s);
         let trouble = pose.as_ref().err().map(std::mem::discriminant);
@@ -246,14 +208,14 @@ impl RosRobot {
     }
 
     fn scan(&self) -> Option<(Pose, Arc<LaserScan>)> {
-        let (scans, known) = (self.parts.scans.as_ref()?, self.map.as_ref()?);
-        let (pose, scan) = scans.newest_in(&known.received.frame, &self.parts.transforms)?;
+        let (scans, received) = (self.parts.scans.as_ref()?, self.parts.map.received()?);
+        let (pose, scan) = scans.newest_in(&received.frame, &self.parts.transforms)?;
         Some((pose, Arc::new(scan)))
     }
 
     /// How the command under way is doing.
     fn navigation(&mut self) -> Navigation {
-        let (Some(move_base), frame) = (&mut self.parts.move_base, frame_of(&self.map)) else {
+        let (Some(move_base), frame) = (&mut self.parts.move_base, self.parts.map.frame()) else {
             return self.parts.pilot.navigation();
         };
         match &mut self.task {
@@ -275,7 +237,7 @@ impl RosRobot {
             }
         }
         self.parts.pilot.command(&Command::Hold);
-        self.task = match move_base.send(goal_in_map, frame_of(&self.map)) {
+        self.task = match move_base.send(goal_in_map, self.parts.map.frame()) {
             Ok(()) => Task::Goal(id),
             Err(why) => Task::Unsent { id, why },
         };
@@ -284,8 +246,8 @@ impl RosRobot {
 
     /// A goal that the newest map led to has just been sent.
     fn note_latency(&mut self) {
-        if let (Task::Goal(_), true, Some(known)) = (&self.task, self.map_is_new, &self.map) {
-            self.latencies_ms.push(1e3 * known.received.arrived.elapsed().as_secs_f64());
+        if let (Task::Goal(_), true, Some(received)) = (&self.task, self.map_is_new, self.parts.map.received()) {
+            self.latencies_ms.push(1e3 * received.arrived.elapsed().as_secs_f64());
         }
     }
 
@@ -307,7 +269,7 @@ impl RosRobot {
             return;
         }
         let mut turn = TurnGoals::new(&pose, angle_rad);
-        self.task = match turn.begin(move_base, frame_of(&self.map)) {
+        self.task = match turn.begin(move_base, self.parts.map.frame()) {
             Ok(()) => Task::Turn(id, turn),
             Err(why) => Task::Unsent { id, why },
         };
@@ -318,15 +280,9 @@ impl RosRobot {
         let (Some(move_base), true) = (&self.parts.move_base, self.config.clear_costmaps) else { return };
         if let NavigationState::Aborted(why) = &navigation.state {
             self.node.log().warn(format_args!("move_base gave the goal up: {why}"));
-            if let Err(error) = move_base.clear_costmaps() {
-                self.node.log().once(Level::Warn, error);
-            }
+            move_base.clear_costmaps();
         }
     }
-}
-
-fn frame_of(map: &Option<KnownMap>) -> &str {
-    map.as_ref().map_or("map", |known| known.received.frame.as_str())
 }
 
 impl Robot for RosRobot {
@@ -338,7 +294,7 @@ impl Robot for RosRobot {
             ros_s = self.wait()?;
             self.take_map();
             pose_in_map = self.locate(ros_s);
-            self.has_begun |= self.map.is_some() && pose_in_map.is_ok();
+            self.has_begun |= self.parts.map.received().is_some() && pose_in_map.is_ok();
             if self.has_begun {
                 break;
             }
@@ -348,7 +304,7 @@ impl Robot for RosRobot {
         Ok(Observation {
             stamp_s: self.clock.of(ros_s),
             pose_in_map,
-            map: self.map.as_ref().map(|known| known.snapshot.clone()),
+            map: self.parts.map.snapshot().cloned(),
             scan: self.scan(),
             navigation,
         })

@@ -1,5 +1,6 @@
 //! From settings to connections.
 
+use super::super::robot_map::RobotMap;
 use super::{ExploreNodeError, Settings};
 use crate::config::{Drive, TurnBy};
 use crate::frontier::DetectorKind;
@@ -68,12 +69,9 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
         tick_period_s: 1.0 / params.tick_rate,
         turn_by_goals: params.turn_by == TurnBy::MoveBase,
         clear_costmaps: params.clear_costmaps,
-        thresholds: explorer.thresholds,
-        inflation: robot.inflation(),
     };
     let parts = Connections {
-        map,
-        costmap,
+        map: RobotMap::new(map, costmap, explorer.thresholds, robot.inflation()),
         transforms,
         scans,
         move_base,

@@ -8,9 +8,10 @@ pub use planner::AskingPlanner;
 pub use tracker::{GoalStatus, GoalTracker};
 
 use super::bell::Bell;
-use super::call::{CallError, call};
+use super::call::call;
 use super::convert;
 use super::feed::Feed;
+use super::log::Level;
 use super::msg::actionlib_msgs::{GoalID, GoalStatusArray};
 use super::msg::move_base_msgs::{MoveBaseActionFeedback, MoveBaseActionGoal, MoveBaseActionResult, MoveBaseGoal};
 use super::msg::std_srvs;
@@ -114,13 +115,15 @@ impl MoveBase {
         lock(&self.tracker).state(self.node.wall_s())
     }
 
-    /// Clears the obstacles that move_base remembers.
-    ///
-    /// # Errors
-    /// [`CallError`] when the service is not there, or late.
-    pub fn clear_costmaps(&self) -> Result<(), CallError> {
-        let service = format!("{}/clear_costmaps", self.server);
-        call::<std_srvs::Empty>(&self.node, &service, std_srvs::EmptyReq {}, SERVICE_LIMIT).map(|_| ())
+    /// Asks move_base to clear the obstacles that it remembers, and does not wait for that:
+    /// the explorer looks at a new map first.
+    pub fn clear_costmaps(&self) {
+        let (node, service) = (self.node.clone(), format!("{}/clear_costmaps", self.server));
+        std::thread::spawn(move || {
+            if let Err(error) = call::<std_srvs::Empty>(&node, &service, std_srvs::EmptyReq {}, SERVICE_LIMIT) {
+                node.log().once(Level::Warn, error);
+            }
+        });
     }
 
     /// Whether the server has connected both ways: one and the same node tells status,

@@ -16,7 +16,7 @@ use super::super::node::{Node, NodeError};
 use super::goal_book::{Entry, GoalBook};
 use super::params::Fault;
 use crate::geometry::{Pose, Twist};
-use crate::grid::{Costmap, OccupancyGrid};
+use crate::grid::{Costmap, GridPatch, OccupancyGrid};
 use crate::navigation::{NavigationInput, Navigator};
 use crate::planning::GlobalPlanner;
 use crate::robot::{Command, CommandId, NavigationState};
@@ -173,7 +173,8 @@ impl MoveBaseServer {
         let new = costmap.to_published();
         match &self.published {
             Some(old) if old.info() == new.info() => {
-                if let Some(update) = difference(old, &new, stamp_s) {
+                if let Some(patch) = GridPatch::difference(old, &new) {
+                    let update = convert::patch_message(patch, MAP, stamp_s);
                     let _ = self.updates.send(update);
                 }
             }
@@ -271,50 +272,6 @@ fn serve(node: &Node, plans: &Arc<Mutex<Plans>>) -> Result<Vec<Service>, NodeErr
     Ok(vec![make_plan, clear])
 }
 
-/// The rectangle in which two grids of the same size differ.
-fn difference(old: &OccupancyGrid, new: &OccupancyGrid, stamp_s: f64) -> Option<OccupancyGridUpdate> {
-    let width = new.info().width();
-    let rows = || old.data().chunks_exact(width).zip(new.data().chunks_exact(width));
-    let changed: Vec<usize> = rows().enumerate().filter(|(_, (a, b))| a != b).map(|(y, _)| y).collect();
-    let (&bottom, &top) = (changed.first()?, changed.last()?);
-    let columns = rows().flat_map(|(a, b)| {
-        let differs = |&x: &usize| a.get(x) != b.get(x);
-        [(0..width).find(differs), (0..width).rfind(differs)].into_iter().flatten()
-    });
-    let (left, right) = columns.fold((width, 0), |(low, high), x| (low.min(x), high.max(x)));
-    let data = new.data().chunks_exact(width).skip(bottom).take(top + 1 - bottom);
-    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    Some(OccupancyGridUpdate {
-        header: convert::header(MAP, stamp_s),
-        x: i32::try_from(left).unwrap_or(i32::MAX),
-        y: i32::try_from(bottom).unwrap_or(i32::MAX),
-        width: number(right + 1 - left),
-        height: number(top + 1 - bottom),
-        data: data.flat_map(|row| row.get(left..=right).unwrap_or_default().iter().copied()).collect(),
-    })
-}
-
 fn lock(plans: &Mutex<Plans>) -> MutexGuard<'_, Plans> {
     plans.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::grid::{Cell, GridInfo};
-
-    #[test]
-    fn an_update_laid_on_the_old_grid_gives_the_new_one() {
-        let old = OccupancyGrid::filled(GridInfo::new(6, 5, 0.05, Pose::default()).unwrap(), 0);
-        assert_eq!(difference(&old, &old, 0.0), None);
-        let mut new = old.clone();
-        for (x, y, value) in [(2, 1, 100), (4, 3, -1)] {
-            new.set(Cell::new(x, y), value);
-        }
-        let update = difference(&old, &new, 0.0).unwrap();
-        assert_eq!((update.x, update.y, update.width, update.height), (2, 1, 3, 3));
-        let mut patched = old;
-        patched.apply(&convert::patch(update)).unwrap();
-        assert_eq!(patched, new);
-    }
 }

@@ -1,0 +1,64 @@
+use super::*;
+use proptest::prelude::*;
+
+fn info(width: u32, height: u32, resolution_m: f64, origin: Pose) -> GridInfo {
+    GridInfo::new(width, height, resolution_m, origin).unwrap()
+}
+
+#[test]
+fn corners_of_a_plain_grid() {
+    let grid = info(4, 3, 0.5, Pose::new(-1.0, 2.0, 0.0));
+    assert_eq!(grid.cell_at(Point::new(-1.0, 2.0)), Cell::new(0, 0));
+    assert_eq!(grid.cell_at(Point::new(0.999, 3.499)), Cell::new(3, 2));
+    assert_eq!(grid.cell_at(Point::new(1.0, 3.5)), Cell::new(4, 3));
+    assert_eq!(grid.cell_at(Point::new(-1.001, 1.999)), Cell::new(-1, -1));
+    assert_eq!(grid.center(Cell::new(0, 0)), Point::new(-0.75, 2.25));
+    assert_eq!(grid.index(Cell::new(3, 2)), Some(11));
+    assert_eq!(grid.cell(11), Cell::new(3, 2));
+    assert_eq!(grid.index(Cell::new(4, 0)), None);
+}
+
+#[test]
+fn a_quarter_turned_grid_grows_to_the_left() {
+    let grid = info(4, 3, 1.0, Pose::new(0.0, 0.0, std::f64::consts::FRAC_PI_2));
+    assert_eq!(grid.cell_at(Point::new(-0.5, 3.5)), Cell::new(3, 0));
+    let center = grid.center(Cell::new(3, 0));
+    assert!((center - Point::new(-0.5, 3.5)).norm() < 1e-12);
+}
+
+#[test]
+fn impossible_grids_are_refused() {
+    assert!(matches!(GridInfo::new(0, 5, 0.05, Pose::default()), Err(GridInfoError::Size { .. })));
+    assert!(matches!(GridInfo::new(1 << 20, 1 << 20, 0.05, Pose::default()), Err(GridInfoError::Size { .. })));
+    for resolution in [0.0, -0.05, f64::NAN, f64::INFINITY] {
+        assert!(matches!(GridInfo::new(5, 5, resolution, Pose::default()), Err(GridInfoError::Resolution(_))));
+    }
+    assert!(matches!(GridInfo::new(5, 5, 0.05, Pose::new(f64::NAN, 0.0, 0.0)), Err(GridInfoError::Origin(..))));
+}
+
+proptest! {
+    #[test]
+    fn cell_and_world_are_inverse(
+        width in 1u32..300, height in 1u32..300, resolution in 0.01f64..1.0,
+        x in -50.0f64..50.0, y in -50.0f64..50.0, yaw in -4.0f64..4.0,
+        u in 0.0f64..1.0, v in 0.0f64..1.0,
+    ) {
+        let grid = info(width, height, resolution, Pose::new(x, y, yaw));
+        let far = Cell::new(width as i32 - 1, height as i32 - 1);
+        let any = Cell::new((u * f64::from(width)) as i32, (v * f64::from(height)) as i32);
+        for cell in [Cell::new(0, 0), Cell::new(far.x, 0), Cell::new(0, far.y), far, any, Cell::new(-3, -7)] {
+            prop_assert_eq!(grid.cell_at(grid.center(cell)), cell);
+        }
+        let point = grid.from_grid_units(u * f64::from(width), v * f64::from(height));
+        let (gx, gy) = grid.to_grid_units(point);
+        prop_assert!((gx - u * f64::from(width)).abs() < 1e-6 && (gy - v * f64::from(height)).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn floors_are_those_of_the_library() {
+    let extreme = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3e9, 3e9, f64::from(i32::MIN) - 0.5];
+    for value in (-40..40).map(|i| f64::from(i) * 0.25).chain(extreme) {
+        assert_eq!(floor(value), value.floor() as i32, "{value}");
+    }
+}
