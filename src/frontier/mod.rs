@@ -14,6 +14,9 @@ mod labels;
 mod params;
 mod plane;
 mod pocket;
+#[cfg(test)]
+#[path = "random_maps_tests.rs"]
+mod random_maps;
 mod reach;
 mod regroup;
 mod representative;

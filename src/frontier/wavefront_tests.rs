@@ -1,5 +1,6 @@
 //! The textbook detector against drawings and against a restatement of its definition.
 
+use super::super::random_maps::noise;
 use super::*;
 use crate::geometry::Pose;
 use proptest::prelude::*;
@@ -106,31 +107,10 @@ fn closure(start: BTreeSet<Cell>, next: impl Fn(Cell) -> Vec<Cell>) -> BTreeSet<
     done
 }
 
-/// Random maps up to 64 x 64 with the robot on a free cell.
-fn random_map() -> impl Strategy<Value = (OccupancyGrid, Cell)> {
-    (2u32..=64, 1u32..=64, 0.0f64..1.0, 0.0f64..1.0)
-        .prop_flat_map(|(width, height, known, free)| {
-            let value = prop_oneof![
-                ((1.0 - known) * 100.0) as u32 + 1 => Just(OccupancyGrid::UNKNOWN),
-                (known * free * 100.0) as u32 + 1 => 0i8..=64,
-                (known * (1.0 - free) * 100.0) as u32 + 1 => 65i8..=100,
-            ];
-            let values = proptest::collection::vec(value, (width * height) as usize);
-            (Just((width, height)), values, any::<prop::sample::Index>())
-        })
-        .prop_map(|((width, height), values, robot)| {
-            let info = GridInfo::new(width, height, 1.0, Pose::default()).unwrap();
-            let mut grid = OccupancyGrid::new(info, values).unwrap();
-            let seed = info.cell(robot.index(info.len()));
-            grid.set(seed, OccupancyGrid::FREE);
-            (grid, seed)
-        })
-}
-
 proptest! {
     #[test]
     fn equals_the_definition(
-        (grid, seed) in random_map(),
+        (grid, seed) in noise(64, 64),
         textbook: bool,
         four: bool,
     ) {

@@ -5,39 +5,22 @@
 //! distance, one lower envelope of parabolas along each row. O(cells), exact.
 
 use super::GridInfo;
+use super::vertical::vertical_distances;
 
 /// Squared distance in cells, between cell centres, from each cell to the nearest
 /// cell for which `is_obstacle(index)` holds; `u32::MAX` everywhere without one.
 /// Row-major, as the grid.
 #[must_use]
 pub fn squared_distance_cells(info: &GridInfo, is_obstacle: impl Fn(usize) -> bool) -> Vec<u32> {
-    let (width, height) = (info.width(), info.height());
-    let mut distances = vertical_distances(width, height, is_obstacle);
+    let width = info.width();
+    let mut distances: Vec<u32> = (0..info.len()).map(|i| if is_obstacle(i) { 0 } else { NONE }).collect();
+    vertical_distances(width, &mut distances);
     let mut envelope = Envelope::with_capacity(width);
     let mut row_squared = vec![0; width];
     for row in distances.chunks_exact_mut(width) {
         envelope.build(row);
         envelope.evaluate(row, &mut row_squared);
         row.copy_from_slice(&row_squared);
-    }
-    distances
-}
-
-/// Cells to the nearest obstacle in the same column, `NONE` where there is none.
-fn vertical_distances(width: usize, height: usize, is_obstacle: impl Fn(usize) -> bool) -> Vec<u32> {
-    let mut distances: Vec<u32> = (0..width * height).map(|i| if is_obstacle(i) { 0 } else { NONE }).collect();
-    let nearer = |row: &mut [u32], neighbours: &[u32]| {
-        for (distance, &neighbour) in row.iter_mut().zip(neighbours) {
-            *distance = (*distance).min(neighbour.saturating_add(1));
-        }
-    };
-    for y in 1..height {
-        let (before, rest) = distances.split_at_mut(y * width);
-        nearer(&mut rest[..width], &before[(y - 1) * width..]);
-    }
-    for y in (1..height).rev() {
-        let (before, rest) = distances.split_at_mut(y * width);
-        nearer(&mut before[(y - 1) * width..], &rest[..width]);
     }
     distances
 }

@@ -20,6 +20,7 @@ mod rect;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 mod state;
+mod vertical;
 
 pub use bitplane::{BitPlane, BitWork, WORD_CELLS, with_bit_counts};
 pub use bitplanes::BitPlanes;

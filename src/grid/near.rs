@@ -6,6 +6,8 @@
 //! O(cells * limit) with many cells at a time; rows and ends of rows far from every
 //! obstacle cost next to nothing. Exact within the limit.
 
+use super::vertical::vertical_distances;
+
 /// The longest limit, cells: its square must fit 16 bits with a sign, and envelopes are
 /// faster beyond.
 pub const LONGEST_LIMIT: usize = 48;
@@ -71,24 +73,6 @@ impl Square for i16 {
 
     fn index(self) -> usize {
         usize::from(self.unsigned_abs())
-    }
-}
-
-/// Cells to the nearest obstacle in the same column, 255 for that many or more.
-fn vertical_distances(width: usize, distances: &mut [u8]) {
-    let nearer = |row: &mut [u8], neighbours: &[u8]| {
-        for (distance, &neighbour) in row.iter_mut().zip(neighbours) {
-            *distance = (*distance).min(neighbour.saturating_add(1));
-        }
-    };
-    let height = distances.len() / width;
-    for y in 1..height {
-        let (before, rest) = distances.split_at_mut(y * width);
-        nearer(&mut rest[..width], &before[(y - 1) * width..]);
-    }
-    for y in (1..height).rev() {
-        let (before, rest) = distances.split_at_mut(y * width);
-        nearer(&mut before[(y - 1) * width..], &rest[..width]);
     }
 }
 
