@@ -7,7 +7,7 @@
 
 use super::DetectorParams;
 use super::Reachability;
-use super::clusters::FrontierCells;
+use super::found::FrontierCells;
 use super::group::Grouper;
 use super::shifts::neighbours_of_row;
 use crate::grid::{BitPlane, BitPlanes, Cell, Classifier, Neighbourhood, OccupancyGrid, WORD_CELLS};

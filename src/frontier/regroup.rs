@@ -1,6 +1,6 @@
 //! The frontiers of a plane of which some tiles changed.
 
-use super::clusters::FrontierCells;
+use super::found::FrontierCells;
 use super::group::Grouper;
 use super::tiles::Tiling;
 use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
