@@ -114,7 +114,7 @@ impl BitWork for Connect<'_> {
                 let more = first + 4 * most_in_band - known;
                 if of_run.capacity() - of_run.len() < more as usize {
                     // Less greedy than doubling: there may be a run for every fourth cell.
-                    of_run.reserve_exact((more as usize).max(of_run.len() / 8));
+                    of_run.reserve_exact((more as usize).max(of_run.len() / 32));
                 }
                 of_run.extend(known..known + more);
             }

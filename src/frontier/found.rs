@@ -2,6 +2,7 @@
 
 use super::{CellSide, Frontier};
 use crate::grid::Cell;
+use std::ops::Range;
 
 /// The cells of frontiers, one after the other in one list: what a detector finds,
 /// without a list for each.
@@ -52,10 +53,80 @@ impl FrontierCells {
         start
     }
 
-    /// Adds a frontier.
-    pub(super) fn append(&mut self, cells: &[Cell]) {
-        self.cells.extend_from_slice(cells);
-        self.ends.push(self.cells.len() as u32);
+    /// Drops the frontiers that are not kept, and puts others among the rest in the order of
+    /// first cells. In place: what lies before the first that is dropped or new stays there.
+    pub(super) fn replace(&mut self, is_kept: impl Fn(&[Cell]) -> bool, fresh: &Self) {
+        self.keep(is_kept);
+        let (mut kept, mut new) = (self.len(), fresh.len());
+        let mut kept_end = self.cells.len();
+        self.cells.resize(kept_end + fresh.cells.len(), Cell::new(0, 0));
+        self.ends.resize(kept + new, 0);
+        // From the last on, so that nothing is written over what has still to be moved.
+        let mut place = self.cells.len();
+        while new > 0 {
+            let cells = fresh.frontier(new - 1);
+            let before = self.count_before(kept, cells);
+            let moved = self.start(before)..kept_end;
+            let by = place - kept_end;
+            self.cells.copy_within(moved.clone(), moved.start + by);
+            for i in (before..kept).rev() {
+                self.ends[i + new] = self.ends[i] + by as u32;
+            }
+            (kept, kept_end, place) = (before, moved.start, moved.start + by);
+            self.ends[kept + new - 1] = place as u32;
+            place -= cells.len();
+            self.cells[place..place + cells.len()].copy_from_slice(cells);
+            new -= 1;
+        }
+    }
+
+    /// Closes the gaps that frontiers leave which are not kept.
+    fn keep(&mut self, is_kept: impl Fn(&[Cell]) -> bool) {
+        let (mut kept, mut end) = (0, 0);
+        // Neighbours that are kept are moved together.
+        let mut block = 0..0;
+        for i in 0..self.len() {
+            let cells = block.end..self.ends[i] as usize;
+            if is_kept(&self.cells[cells.clone()]) {
+                self.ends[kept] = (end + cells.end - block.start) as u32;
+                kept += 1;
+                block.end = cells.end;
+            } else {
+                end = self.move_down(&block, end);
+                block = cells.end..cells.end;
+            }
+        }
+        end = self.move_down(&block, end);
+        self.cells.truncate(end);
+        self.ends.truncate(kept);
+    }
+
+    /// Moves cells to a place not after their own; where they end there.
+    fn move_down(&mut self, cells: &Range<usize>, place: usize) -> usize {
+        if place < cells.start {
+            self.cells.copy_within(cells.clone(), place);
+        }
+        place + cells.len()
+    }
+
+    /// How many of the first so many frontiers begin before another.
+    fn count_before(&self, count: usize, other: &[Cell]) -> usize {
+        let order = |cells: &[Cell]| cells.first().map(|cell| (cell.y, cell.x));
+        let (mut low, mut high) = (0, count);
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if order(self.frontier(middle)) < order(other) { low = middle + 1 } else { high = middle }
+        }
+        low
+    }
+
+    /// Where the cells of a frontier begin.
+    fn start(&self, index: usize) -> usize {
+        if index > 0 { self.ends[index - 1] as usize } else { 0 }
+    }
+
+    fn frontier(&self, index: usize) -> &[Cell] {
+        &self.cells[self.start(index)..self.ends[index] as usize]
     }
 
     /// Makes room for so many cells and frontiers, and for a cell at the end and a frontier
@@ -83,5 +154,36 @@ impl FrontierCells {
         let frontier =
             |(id, cells): (u64, &[Cell])| Frontier { id, cells: cells.to_vec(), side: CellSide::Unknown, circle: None };
         (0..).zip(self.iter()).map(frontier).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Frontiers of one to three cells whose first cells are in these columns.
+    fn found(columns: impl Iterator<Item = i32>) -> FrontierCells {
+        let mut found = FrontierCells::default();
+        for column in columns {
+            let first = found.push(column as u32 % 3 + 1);
+            (first..found.ends[found.len() - 1]).for_each(|place| found.put(place, Cell::new(column, 0)));
+        }
+        found
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_replaced_is_as_if_listed_anew(kinds in proptest::collection::vec(0..3, 0..40)) {
+            // Kept, dropped and new ones in any order.
+            let of_kinds = |wanted: &[i32]| {
+                let wanted = wanted.to_vec();
+                found((0..).zip(&kinds).filter(|(_, kind)| wanted.contains(kind)).map(|(column, _)| column))
+            };
+            let mut list = of_kinds(&[0, 1]);
+            list.replace(|cells| kinds[cells[0].x as usize] == 0, &of_kinds(&[2]));
+            let expected = of_kinds(&[0, 2]);
+            prop_assert_eq!((list.cells, list.ends), (expected.cells, expected.ends));
+        }
     }
 }
