@@ -2,16 +2,19 @@
 //!
 //! The same question as [`Wavefront`](super::Wavefront) asks, answered without a search
 //! from cell to cell. The grid is packed into one bit a cell; the neighbours of 64 cells
-//! at once are a few shifts; what is connected is found by union-find over runs of cells
-//! in rows, after He, Chao and Suzuki (2008). The frontier as an expression of bits is
-//! the definition of Topiwala, Inani and Kathpal (2018) written for words. The result is
-//! the textbook's to the cell, in the same order.
+//! at once are a few shifts; what the robot can get to is filled row by row
+//! ([`super::flood`]), and what hangs together is found by union-find over runs of cells,
+//! after He, Chao and Suzuki (2008). The frontier as an expression of bits is the
+//! definition of Topiwala, Inani and Kathpal (2018) written for words. The result is the
+//! textbook's to the cell, in the same order.
 //!
 //! O(cells) with a small constant for packing, plus O(runs). The whole grid is read,
 //! also where nothing is known. Nothing but the result is allocated while the size of
 //! the map stays the same and its runs do not become more.
 
-use super::clusters::{Clusters, FrontierCells};
+use super::clusters::Clusters;
+use super::flood::Flood;
+use super::found::FrontierCells;
 use super::labels::Labels;
 use super::pocket::Pocket;
 use super::shifts::neighbours_of_row;
@@ -27,6 +30,7 @@ pub struct Bitplane {
     /// The cells that the search walks on.
     entered: BitPlane,
     pocket: Pocket,
+    flood: Flood,
     labels: Labels,
     clusters: Clusters,
     found: FrontierCells,
@@ -43,6 +47,7 @@ impl Bitplane {
             planes: BitPlanes::default(),
             entered: BitPlane::default(),
             pocket: Pocket::default(),
+            flood: Flood::default(),
             labels: Labels::default(),
             clusters: Clusters::default(),
             found: FrontierCells::default(),
@@ -78,6 +83,7 @@ impl Bitplane {
         self.planes.memory_bytes()
             + self.entered.memory_bytes()
             + self.pocket.memory_bytes()
+            + self.flood.memory_bytes()
             + self.labels.memory_bytes()
             + self.clusters.memory_bytes()
             + self.row.capacity() * size_of::<u64>()
@@ -86,35 +92,46 @@ impl Bitplane {
     /// Frontier cells where walls block: unknown beside free space connected to the seed.
     /// They take the place of the unknown cells.
     fn mark_where_walls_block(&mut self, seed: Cell) {
-        let free = self.planes.free();
-        let all = Window::of(free);
-        self.labels.label(free, &all, Neighbourhood::Four);
-        let kept = self.labels.component_at(free, &all, seed);
-        self.entered.resize(free.width(), free.height());
-        self.labels.select(free, &all, |c| Some(c) == kept, |y, i, word| self.entered.row_mut(y)[i] = word);
-        let unknown = self.planes.unknown_mut();
-        self.row.resize(unknown.row_words(), 0);
+        let Self { params, planes, entered, flood, labels, row, .. } = self;
+        let (free, unknown) = planes.both_mut();
+        connected_to(seed, free, Neighbourhood::Four, entered, flood, labels);
+        row.resize(unknown.row_words(), 0);
         for y in 0..unknown.height() {
-            neighbours_of_row(&self.entered, self.params.neighbours, y, 0..unknown.row_words(), &mut self.row);
-            intersect(unknown.row_mut(y), &self.row);
+            neighbours_of_row(entered, params.neighbours, y, 0..unknown.row_words(), row);
+            intersect(unknown.row_mut(y), row);
         }
     }
 
     /// Frontier cells by the paper's line 27: the search walks over all that has a free
     /// neighbour, and over the seed. They take the place of the unknown cells.
     fn mark_as_the_textbook(&mut self, seed: Cell) {
-        let free = self.planes.free();
-        self.entered.resize(free.width(), free.height());
+        let Self { params, planes, entered, flood, labels, .. } = self;
+        let (free, unknown) = planes.both_mut();
+        entered.resize(free.width(), free.height());
         for y in 0..free.height() {
-            let row = self.entered.row_mut(y);
-            neighbours_of_row(free, self.params.neighbours, y, 0..free.row_words(), row);
+            neighbours_of_row(free, params.neighbours, y, 0..free.row_words(), entered.row_mut(y));
         }
-        self.entered.insert(seed);
-        let all = Window::of(&self.entered);
-        self.labels.label(&self.entered, &all, self.params.neighbours);
-        let kept = self.labels.component_at(&self.entered, &all, seed);
-        let frontier = self.planes.unknown_mut();
-        self.labels.select(&self.entered, &all, |c| Some(c) == kept, |y, i, word| frontier.row_mut(y)[i] &= word);
+        entered.insert(seed);
+        // The free cells have served, and what is walked over takes their place.
+        connected_to(seed, entered, params.neighbours, free, flood, labels);
+        unknown.intersect(free);
+    }
+}
+
+/// Finds the cells of `open` that are connected to a seed among them.
+fn connected_to(
+    seed: Cell,
+    open: &BitPlane,
+    neighbourhood: Neighbourhood,
+    reached: &mut BitPlane,
+    flood: &mut Flood,
+    labels: &mut Labels,
+) {
+    if flood.fill(open, neighbourhood, seed, reached).is_none() {
+        let all = Window::of(open);
+        labels.label(open, &all, neighbourhood);
+        let kept = labels.component_at(open, &all, seed);
+        labels.select(open, &all, |c| Some(c) == kept, |y, i, word| reached.row_mut(y)[i] = word);
     }
 }
 

@@ -33,36 +33,52 @@ pub(super) fn count_runs(row: &[u64]) -> u32 {
 /// pair that touches. With `eight`, corners touch. Rows are as long as each other, or
 /// `above` is empty. The number of runs of `row`.
 #[inline(always)]
-pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, mut visit: impl FnMut(u32, u32)) -> u32 {
+pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, visit: impl FnMut(u32, u32)) -> u32 {
     if above.is_empty() {
         return count_runs(row);
     }
-    // The last cells of the words before.
-    let (mut last, mut over_last) = (0, 0);
+    let words = row.iter().zip(above);
+    for_each_band_contact(words.map(|(&word, &over)| [(word, word), (over, over)]), eight, visit)
+}
+
+/// The same for bands of rows. Of each band and of the one above it come word by word the
+/// columns in which it has a cell, whose runs are meant, and the cells of that of its rows
+/// which lies beside the other band. A pair may be met more than once.
+#[inline(always)]
+pub(super) fn for_each_band_contact(
+    words: impl Iterator<Item = [(u64, u64); 2]>,
+    eight: bool,
+    mut visit: impl FnMut(u32, u32),
+) -> u32 {
+    // The last columns of the words before, and the last cells of the rows between.
+    let (mut last, mut over_last) = ((0, 0), (0, 0));
     // How many runs began before this word.
     let (mut before, mut above_before) = (0, 0);
-    for (&word, &over) in row.iter().zip(above) {
+    for [(band, cells), (over_band, over)] in words {
         // Most words of most maps.
-        if word | over | last == 0 {
-            over_last = 0;
+        if band | over_band | last.0 == 0 {
+            over_last = (0, 0);
             continue;
         }
-        let begun = word & !(word << 1 | last);
-        let above_begun = over & !(over << 1 | over_last);
-        let both = word & over;
+        let begun = band & !(band << 1 | last.0);
+        let above_begun = over_band & !(over_band << 1 | over_last.0);
+        let both = cells & over;
         // Where two runs overlap.
-        let mut contacts = both & !(both << 1 | last & over_last);
+        let mut contacts = both & !(both << 1 | last.1 & over_last.1);
         // Where one ends left of the beginning of another, which is the next above: within
         // the word, and from the word before to this one.
-        let (mut next_contacts, mut next_contact_at_seam) = (0, 0);
+        let (mut next_contacts, mut contact_at_seam) = (0, 0);
         if eight {
             // Where one begins right of the end of another, the last begun above.
-            contacts |= begun & (over << 1 | over_last) & !over;
-            next_contacts = word & !(word >> 1) & (over >> 1) & !over;
-            next_contact_at_seam = last & !word & over & !over_last & 1;
+            contacts |= cells & !(cells << 1 | last.1) & (over << 1 | over_last.1) & !over;
+            let to_the_right = cells & !(cells >> 1) & (over >> 1) & !over;
+            // In a band the other may have begun already, in another row.
+            contacts |= to_the_right & over_band;
+            next_contacts = to_the_right & !over_band;
+            contact_at_seam = last.1 & !cells & over & !over_last.1 & 1;
         }
         for (mut contacts, mask, next) in
-            [(contacts, u64::MAX, 0), (next_contacts, u64::MAX, 1), (next_contact_at_seam, 0, 1)]
+            [(contacts, u64::MAX, 0), (next_contacts, u64::MAX, 1), (contact_at_seam, 0, 1 - over_last.0 as u32)]
         {
             while contacts != 0 {
                 let so_far = (contacts ^ (contacts - 1)) & mask;
@@ -73,7 +89,7 @@ pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, mut visi
         }
         before += begun.count_ones();
         above_before += above_begun.count_ones();
-        (last, over_last) = (word >> 63, over >> 63);
+        (last, over_last) = ((band >> 63, cells >> 63), (over_band >> 63, over >> 63));
     }
     before
 }

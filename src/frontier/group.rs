@@ -1,6 +1,6 @@
 //! Frontiers from a list of cells.
 
-use super::clusters::FrontierCells;
+use super::found::FrontierCells;
 use super::union_find::unite;
 use crate::grid::{Cell, Neighbourhood};
 

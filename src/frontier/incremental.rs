@@ -9,7 +9,8 @@
 //! O(cells compared + tiles + what changed + cells of all frontiers), the last with the
 //! constant of a copy. A map of another size starts over.
 
-use super::clusters::{Clusters, FrontierCells};
+use super::clusters::Clusters;
+use super::found::FrontierCells;
 use super::reach::{Changed, Reach};
 use super::regroup::Regroup;
 use super::shifts::neighbours_of_row;

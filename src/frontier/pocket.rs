@@ -7,7 +7,7 @@
 
 use super::DetectorParams;
 use super::Reachability;
-use super::clusters::FrontierCells;
+use super::found::FrontierCells;
 use super::group::Grouper;
 use super::shifts::neighbours_of_row;
 use crate::grid::{BitPlane, BitPlanes, Cell, Classifier, Neighbourhood, OccupancyGrid, WORD_CELLS};
@@ -15,8 +15,8 @@ use crate::grid::{BitPlane, BitPlanes, Cell, Classifier, Neighbourhood, Occupanc
 /// What a cell costs the textbook's search, in quarters of what it costs to pack one. The
 /// fill costs less: as long as it goes on, it is the fastest of the three.
 const SEARCH_PER_CELL: usize = 256;
-/// What a run costs to label, in the same unit.
-const LABEL_PER_RUN: usize = 64;
+/// What a run costs where all are found, in the same unit.
+const LABEL_PER_RUN: usize = 16;
 
 /// Cells of one row.
 #[derive(Clone, Copy, Debug)]

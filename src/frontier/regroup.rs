@@ -1,6 +1,6 @@
 //! The frontiers of a plane of which some tiles changed.
 
-use super::clusters::FrontierCells;
+use super::found::FrontierCells;
 use super::group::Grouper;
 use super::tiles::Tiling;
 use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
@@ -16,7 +16,6 @@ pub(super) struct Regroup {
     grouper: Grouper,
     cells: Vec<Cell>,
     fresh: FrontierCells,
-    next: FrontierCells,
 }
 
 impl Regroup {
@@ -38,7 +37,8 @@ impl Regroup {
         if done {
             self.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
             self.grouper.group(&self.cells, neighbourhood, min_cells, &mut self.fresh);
-            self.merge(plane, found);
+            // Kept are those whose cells are still in the plane.
+            found.replace(|cells| cells.first().is_some_and(|&cell| plane.contains(cell)), &self.fresh);
         }
         for &cell in &self.cells {
             plane.insert(cell);
@@ -71,35 +71,20 @@ impl Regroup {
                 }
             }
         }
-        // What is left of the frontiers that lost a cell; their cells are in the order of rows.
+        // What is left of the frontiers that lost a cell; their cells are in the order of rows,
+        // and they in that of their first cells.
         let (low, high) = rows.unwrap_or((0, 0));
-        let is_near = |cells: &[Cell]| {
-            cells.last().is_some_and(|last| last.y >= low) && cells.first().is_some_and(|first| first.y < high)
-        };
+        let begins_before = |cells: &&[Cell]| cells.first().is_some_and(|first| first.y < high);
+        let is_near = |cells: &[Cell]| cells.last().is_some_and(|last| last.y >= low);
         let is_changed = |cell: &Cell| changed[tiling.at(cell.y as usize, cell.x as usize / WORD_CELLS)];
-        for cells in found.iter().filter(|cells| is_near(cells) && cells.iter().any(is_changed)) {
+        for cells in
+            found.iter().take_while(begins_before).filter(|cells| is_near(cells) && cells.iter().any(is_changed))
+        {
             for &cell in cells {
                 self.take(plane, cell, neighbourhood, most_cells)?;
             }
         }
         Some(())
-    }
-
-    /// Puts the frontiers found again among those that are kept: the ones whose cells are
-    /// still in the plane.
-    fn merge(&mut self, plane: &BitPlane, found: &mut FrontierCells) {
-        self.next.clear();
-        let mut fresh = self.fresh.iter().peekable();
-        let untouched = |cells: &&[Cell]| cells.first().is_some_and(|&cell| plane.contains(cell));
-        let order = |cells: &[Cell]| cells.first().map(|cell| (cell.y, cell.x));
-        for kept in found.iter().filter(untouched) {
-            while let Some(new) = fresh.next_if(|new| order(new) < order(kept)) {
-                self.next.append(new);
-            }
-            self.next.append(kept);
-        }
-        fresh.for_each(|new| self.next.append(new));
-        std::mem::swap(&mut self.next, found);
     }
 
     /// Takes a cell that is still set out of the plane, and all that are connected to it.
@@ -129,9 +114,6 @@ impl Regroup {
 
     /// What the buffers take in memory, bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Cell>()
-            + self.grouper.memory_bytes()
-            + self.fresh.memory_bytes()
-            + self.next.memory_bytes()
+        self.cells.capacity() * size_of::<Cell>() + self.grouper.memory_bytes() + self.fresh.memory_bytes()
     }
 }

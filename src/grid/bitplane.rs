@@ -55,6 +55,11 @@ impl BitPlane {
         }
     }
 
+    /// Clears all bits.
+    pub fn clear(&mut self) {
+        self.words.fill(0);
+    }
+
     /// Columns.
     #[must_use]
     pub const fn width(&self) -> usize {

@@ -98,6 +98,12 @@ impl BitPlanes {
         &mut self.unknown
     }
 
+    /// The free and the unknown cells, for the same.
+    #[must_use]
+    pub const fn both_mut(&mut self) -> (&mut BitPlane, &mut BitPlane) {
+        (&mut self.free, &mut self.unknown)
+    }
+
     /// The occupied cells, as a plane of its own.
     #[must_use]
     pub fn occupied(&self) -> BitPlane {

@@ -122,17 +122,27 @@ impl Mapper {
     /// # Errors
     /// Never for a map that was made and grown without one.
     pub fn publish(&self) -> Result<OccupancyGrid, MapperError> {
-        let value: fn(f32) -> i8 = match self.config.style {
-            MapStyle::Gmapping => |log_odds| if log_odds > 0.0 { OccupancyGrid::OCCUPIED } else { OccupancyGrid::FREE },
-            MapStyle::Cartographer => |log_odds| (100.0 / (1.0 + (-log_odds).exp())).round() as i8,
-        };
-        let mut grid = OccupancyGrid::filled(self.window.info()?, OccupancyGrid::UNKNOWN);
-        for (slot, cell) in grid.data_mut().iter_mut().zip(&self.cells) {
-            if cell.mark != 0 {
-                *slot = value(cell.log_odds);
+        let info = self.window.info()?;
+        let mut grid = OccupancyGrid::filled(info, OccupancyGrid::UNKNOWN);
+        match self.config.style {
+            MapStyle::Gmapping => {
+                let (occupied, free) = (OccupancyGrid::OCCUPIED, OccupancyGrid::FREE);
+                self.write(&mut grid, |log_odds| if log_odds > 0.0 { occupied } else { free });
+            }
+            MapStyle::Cartographer => {
+                self.write(&mut grid, |log_odds| (100.0 / (1.0 + (-log_odds).exp())).round() as i8);
             }
         }
         Ok(grid)
+    }
+
+    /// Writes the values of the cells seen. A map is published every second: for a simple
+    /// value this is arithmetic on many cells at a time.
+    #[inline(always)]
+    fn write(&self, grid: &mut OccupancyGrid, value: impl Fn(f32) -> i8) {
+        for (slot, cell) in grid.data_mut().iter_mut().zip(&self.cells) {
+            *slot = if cell.mark == 0 { OccupancyGrid::UNKNOWN } else { value(cell.log_odds) };
+        }
     }
 
     fn beams(&self, lidar_pose: &Pose, scan: &LaserScan) -> Vec<Option<Beam>> {

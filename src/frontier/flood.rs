@@ -1,0 +1,257 @@
+//! What is connected to a seed, without a label: a row is filled at once.
+//!
+//! To fill a run of bits from a seed in it to its end is one addition, whose carry runs
+//! along the ones; it goes on from word to word as in the addition of long integers. To
+//! its beginning it is six steps of doubling length (Kogge and Stone, IEEE Transactions on
+//! Computers 1973), where that is needed at all. Rows are visited in sweeps up and down as
+//! long as one has something to take from a row beside it, and there only.
+//!
+//! On maps of buildings each row is visited a few times. A spiral or a maze can take as
+//! many sweeps as it has turns: after so many visits the fill gives up.
+
+use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
+
+/// Visits and looks at rows, in rows of the plane, after which to label runs is cheaper.
+const MOST_STEPS_PER_ROW: usize = 48;
+
+/// The words from one to before another.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    start: usize,
+    end: usize,
+}
+
+impl Span {
+    const NONE: Self = Self { start: usize::MAX, end: 0 };
+
+    const fn is_empty(self) -> bool {
+        self.start >= self.end
+    }
+
+    fn join(&mut self, other: Self) {
+        *self = Self { start: self.start.min(other.start), end: self.end.max(other.end) };
+    }
+}
+
+/// The fill, with the buffers it keeps.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Flood {
+    /// Of each row, the words in which it has cells beside reached ones that it has not
+    /// taken.
+    pending: Vec<Span>,
+    /// The row that is visited.
+    row: Vec<u64>,
+    /// A row without a cell, beyond the first and the last.
+    none: Vec<u64>,
+    /// Whether corners connect.
+    eight: bool,
+}
+
+impl Flood {
+    /// Finds the cells of `open` that are connected to a seed; none if it is not open.
+    /// `None`, with nothing useful in `reached`, if that takes too many visits.
+    pub fn fill(
+        &mut self,
+        open: &BitPlane,
+        neighbourhood: Neighbourhood,
+        seed: Cell,
+        reached: &mut BitPlane,
+    ) -> Option<()> {
+        self.fill_within(open, neighbourhood, seed, reached, MOST_STEPS_PER_ROW * open.height())
+    }
+
+    /// The same with so many steps at most.
+    fn fill_within(
+        &mut self,
+        open: &BitPlane,
+        neighbourhood: Neighbourhood,
+        seed: Cell,
+        reached: &mut BitPlane,
+        most_steps: usize,
+    ) -> Option<()> {
+        reached.resize(open.width(), open.height());
+        reached.clear();
+        if !open.contains(seed) {
+            return Some(());
+        }
+        self.eight = neighbourhood == Neighbourhood::Eight;
+        self.row.resize(open.row_words(), 0);
+        self.none.resize(open.row_words(), 0);
+        self.pending.clear();
+        self.pending.resize(open.height(), Span::NONE);
+        reached.insert(seed);
+        let (first, word) = (seed.y as usize, seed.x as usize / WORD_CELLS);
+        self.pending[first] = Span { start: word, end: word + 1 };
+        let (mut low, mut high, mut steps) = (first, first, 0);
+        let mut upwards = true;
+        // All that is pending lies from `low` to `high`, and after a sweep behind it.
+        loop {
+            let (mut y, mut behind) = if upwards { (low, Span::NONE) } else { (high, Span::NONE) };
+            loop {
+                steps += 1;
+                if steps > most_steps {
+                    return None;
+                }
+                if !self.pending[y].is_empty() {
+                    let (below, above) = self.visit(open, reached, y);
+                    if below {
+                        low = low.min(y - 1);
+                        if upwards {
+                            behind.join(Span { start: y - 1, end: y });
+                        }
+                    }
+                    if above {
+                        high = high.max(y + 1);
+                        if !upwards {
+                            behind.join(Span { start: y + 1, end: y + 2 });
+                        }
+                    }
+                }
+                if y == if upwards { high } else { low } {
+                    break;
+                }
+                y = if upwards { y + 1 } else { y - 1 };
+            }
+            if behind.is_empty() {
+                return Some(());
+            }
+            (low, high) = (behind.start, behind.end - 1);
+            upwards = !upwards;
+        }
+    }
+
+    /// Takes into a row what is beside the reached cells of those around it; whether the
+    /// row below and the one above have then something to take from it.
+    fn visit(&mut self, open: &BitPlane, reached: &mut BitPlane, y: usize) -> (bool, bool) {
+        let Self { pending, row, none, eight } = self;
+        let none = &none[..];
+        let span = std::mem::replace(&mut pending[y], Span::NONE);
+        let has_above = y + 1 < open.height();
+        let below = if y > 0 { reached.row(y - 1) } else { none };
+        let above = if has_above { reached.row(y + 1) } else { none };
+        let (here, cells) = (reached.row(y), open.row(y));
+        take_from_beside(row, span, [below, here, above], cells, *eight);
+        let end = fill_upwards(row, span, here, cells);
+        let start = fill_downwards(row, Span { start: span.start, end }, here, cells);
+        reached.row_mut(y)[start..end].copy_from_slice(&row[start..end]);
+        let filled = Span { start, end };
+        let offered = if *eight { widen(row, filled, reached.row(y)) } else { filled };
+        let mut offer_to = |y: usize| {
+            let taken = taken_from(row, offered, open.row(y), reached.row(y));
+            pending[y].join(taken);
+            !taken.is_empty()
+        };
+        (y > 0 && offer_to(y - 1), has_above && offer_to(y + 1))
+    }
+
+    /// What the buffers take in memory, bytes.
+    pub fn memory_bytes(&self) -> usize {
+        self.pending.capacity() * size_of::<Span>() + (self.row.capacity() + self.none.capacity()) * size_of::<u64>()
+    }
+}
+
+/// Writes into the span of `row` the cells that are reached or beside what is reached in
+/// the rows below and above.
+#[inline(always)]
+fn take_from_beside(row: &mut [u64], span: Span, [below, here, above]: [&[u64]; 3], cells: &[u64], eight: bool) {
+    let Span { start, end } = span;
+    let pairs = below[start..end].iter().zip(&above[start..end]).zip(here[start..end].iter().zip(&cells[start..end]));
+    for (target, ((below, above), (here, cells))) in row[start..end].iter_mut().zip(pairs) {
+        let beside = below | above;
+        *target = here | beside & cells;
+    }
+    if eight {
+        let beside = |i: usize| below.get(i).copied().unwrap_or(0) | above.get(i).copied().unwrap_or(0);
+        for i in start..end {
+            let before = if i > 0 { beside(i - 1) } else { 0 };
+            row[i] |= (beside(i) << 1 | before >> 63 | beside(i) >> 1 | beside(i + 1) << 63) & cells[i];
+        }
+    }
+}
+
+/// Fills runs of `cells` from their seeds to their last cell, from the span on as far as
+/// that leads; where it ends.
+#[inline(always)]
+fn fill_upwards(row: &mut [u64], span: Span, here: &[u64], cells: &[u64]) -> usize {
+    let mut carry = false;
+    let mut fill = |seeds: u64, cells: u64| {
+        let (sum, over) = cells.overflowing_add(seeds);
+        let (sum, over_again) = sum.overflowing_add(u64::from(carry));
+        carry = over | over_again;
+        (seeds | cells & !sum, carry)
+    };
+    let mut goes_on = false;
+    for (seeds, &cells) in row[span.start..span.end].iter_mut().zip(&cells[span.start..span.end]) {
+        (*seeds, goes_on) = fill(*seeds, cells);
+    }
+    let mut end = span.end;
+    while goes_on && end < row.len() {
+        (row[end], goes_on) = fill(here[end], cells[end]);
+        end += 1;
+    }
+    end
+}
+
+/// Fills runs of `cells` from their seeds to their first cell, from the span on as far
+/// as that leads; where it begins.
+#[inline(always)]
+fn fill_downwards(row: &mut [u64], span: Span, here: &[u64], cells: &[u64]) -> usize {
+    let mut from_next = 0;
+    let mut fill = |seeds: u64, cells: u64| {
+        let seeds = seeds | from_next & cells;
+        let filled = if seeds >> 1 & cells & !seeds == 0 { seeds } else { filled_downwards(seeds, cells) };
+        from_next = filled << 63;
+        filled
+    };
+    for (seeds, &cells) in row[span.start..span.end].iter_mut().zip(&cells[span.start..span.end]).rev() {
+        *seeds = fill(*seeds, cells);
+    }
+    let mut start = span.start;
+    while start > 0 && row[start] << 63 & cells[start - 1] & !here[start - 1] != 0 {
+        start -= 1;
+        row[start] = fill(here[start], cells[start]);
+    }
+    start
+}
+
+/// The runs of `cells` from their first cell to the last of their seeds.
+#[inline(always)]
+const fn filled_downwards(mut seeds: u64, mut cells: u64) -> u64 {
+    let mut length = 1;
+    while length < WORD_CELLS {
+        seeds |= seeds >> length & cells;
+        cells &= cells >> length;
+        length *= 2;
+    }
+    seeds
+}
+
+/// The words of a row beside this one in which it has something to take from it.
+#[inline(always)]
+fn taken_from(row: &[u64], filled: Span, open: &[u64], reached: &[u64]) -> Span {
+    let words = filled.start..filled.end;
+    let mut takes =
+        row[words.clone()].iter().zip(&open[words.clone()]).zip(&reached[words]).map(|((a, b), c)| a & b & !c != 0);
+    let Some(first) = takes.position(|takes| takes) else { return Span::NONE };
+    let start = filled.start + first;
+    Span { start, end: start + 1 + takes.rposition(|takes| takes).map_or(0, |after| after + 1) }
+}
+
+/// Adds the cells to the left and right within a span, one word wider than what is filled.
+fn widen(row: &mut [u64], filled: Span, here: &[u64]) -> Span {
+    let wider = Span { start: filled.start.saturating_sub(1), end: (filled.end + 1).min(row.len()) };
+    row[wider.start..filled.start].copy_from_slice(&here[wider.start..filled.start]);
+    row[filled.end..wider.end].copy_from_slice(&here[filled.end..wider.end]);
+    let mut before = 0;
+    for i in wider.start..wider.end {
+        let word = row[i];
+        let after = if i + 1 < wider.end { row[i + 1] } else { 0 };
+        row[i] |= word << 1 | before >> 63 | word >> 1 | after << 63;
+        before = word;
+    }
+    wider
+}
+
+#[cfg(test)]
+#[path = "flood_tests.rs"]
+mod tests;
