@@ -4,7 +4,7 @@ use super::super::random_maps::{noise, with_robot};
 use super::*;
 use crate::frontier::Wavefront;
 use crate::geometry::{Point, Pose};
-use crate::grid::{GridInfo, OccupancyGrid};
+use crate::grid::OccupancyGrid;
 use crate::io::load_map;
 use proptest::prelude::*;
 use std::path::Path;
