@@ -12,6 +12,7 @@ mod found;
 mod group;
 mod image;
 mod incremental;
+mod joins;
 mod labels;
 mod params;
 mod plane;

@@ -1,5 +1,6 @@
 //! What is connected to a seed in a plane that changes here and there.
 
+use super::joins::Joins;
 use super::labels::Labels;
 use super::tiles::{Tile, Tiling, node_of};
 use super::union_find::{root_of, unite};
@@ -36,6 +37,10 @@ pub(super) struct Reach {
     neighbourhood: Neighbourhood,
     tiling: Tiling,
     tiles: Vec<Tile>,
+    /// Number of nodes of each tile.
+    node_counts: Vec<u16>,
+    /// Of each tile the nodes that touch those of the tile to the right, and above.
+    joins: Joins,
     /// Tiles whose cells changed since they were labelled.
     dirty: Vec<bool>,
     /// Of each tile whether its reached cells include a component within its rim.
@@ -62,6 +67,8 @@ impl Reach {
             neighbourhood,
             tiling: Tiling::default(),
             tiles: Vec::new(),
+            node_counts: Vec::new(),
+            joins: Joins::default(),
             dirty: Vec::new(),
             has_inner: Vec::new(),
             first_node: Vec::new(),
@@ -87,6 +94,8 @@ impl Reach {
         self.tiling = Tiling::new(self.plane.row_words(), height);
         let count = self.tiling.len();
         self.tiles.resize_with(count, Tile::default);
+        self.node_counts.resize(count, 0);
+        self.joins.reset(2 * count);
         self.dirty.clear();
         self.dirty.resize(count, true);
         self.has_inner.clear();
@@ -129,55 +138,61 @@ impl Reach {
                 let window = self.tiling.window(tile);
                 self.labels.label(plane, &window, self.neighbourhood);
                 self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
+                self.node_counts[tile] = self.tiles[tile].nodes;
             }
         }
     }
 
     /// Finds again what joins the tiles that changed to those beside them.
     fn join_tiles(&mut self, plane: &BitPlane) {
-        let Self { tiling, tiles, dirty, neighbourhood, .. } = self;
-        for beside in tiling.later_neighbours() {
-            let tile = beside.tile;
-            if let Some(right) = beside.right.filter(|&right| dirty[tile] || dirty[right]) {
-                let (here, there) = pair(tiles, tile, right);
-                here.join_right(there, *neighbourhood);
-            }
-            if let Some(above) = beside.above.filter(|&above| dirty[tile] || dirty[above]) {
-                let windows = [&tiling.window(tile), &tiling.window(above)];
-                let (here, there) = pair(tiles, tile, above);
-                here.join_above(there, plane, windows, *neighbourhood);
-            }
+        let Self { tiling, tiles, dirty, neighbourhood, joins, .. } = self;
+        if !dirty.contains(&true) {
+            return;
         }
+        joins.rebuild(|list, pairs| {
+            let (tile, is_above) = (list / 2, list % 2 == 1);
+            let offset = if is_above { (0, 1) } else { (1, 0) };
+            let Some(other) = tiling.beside(tile, offset).filter(|&other| dirty[tile] || dirty[other]) else {
+                return false;
+            };
+            if is_above {
+                let windows = [&tiling.window(tile), &tiling.window(other)];
+                tiles[tile].join_above(&tiles[other], plane, windows, *neighbourhood, pairs);
+            } else {
+                tiles[tile].join_right(&tiles[other], *neighbourhood, pairs);
+            }
+            true
+        });
     }
 
     /// Unites all nodes that touch.
     fn connect(&mut self) {
-        let Self { tiles, tiling, first_node, parents, .. } = self;
+        let Self { tiles, tiling, node_counts, joins, first_node, parents, .. } = self;
         first_node.clear();
         first_node.push(0);
         let mut count = 0;
-        for tile in &*tiles {
-            count += u32::from(tile.nodes);
+        for &nodes in &*node_counts {
+            count += u32::from(nodes);
             first_node.push(count);
         }
         parents.clear();
         parents.extend(0..count);
         for beside in tiling.later_neighbours() {
-            let tile = &tiles[beside.tile];
             let mut join = |other: usize, [a, b]: [u16; 2]| {
                 unite(parents, first_node[beside.tile] + u32::from(a), first_node[other] + u32::from(b));
             };
             if let Some(right) = beside.right {
-                tile.joined_right.iter().for_each(|&nodes| join(right, nodes));
+                joins.list(2 * beside.tile).iter().for_each(|&nodes| join(right, nodes));
             }
             if let Some(above) = beside.above {
-                tile.joined_above.iter().for_each(|&nodes| join(above, nodes));
+                joins.list(2 * beside.tile + 1).iter().for_each(|&nodes| join(above, nodes));
             }
             if self.neighbourhood == Neighbourhood::Eight {
                 for (corner, joined) in [
                     (beside.above_right, Tile::joined_at_right_corner as fn(&Tile, &Tile) -> _),
                     (beside.above_left, Tile::joined_at_left_corner),
                 ] {
+                    let tile = &tiles[beside.tile];
                     if let Some((corner, nodes)) = corner.and_then(|c| joined(tile, &tiles[c]).map(|nodes| (c, nodes)))
                     {
                         join(corner, nodes);
@@ -247,6 +262,8 @@ impl Reach {
             + self.labels.memory_bytes()
             + self.tiles.capacity() * size_of::<Tile>()
             + self.tiles.iter().map(Tile::memory_bytes).sum::<usize>()
+            + self.node_counts.capacity() * size_of::<u16>()
+            + self.joins.memory_bytes()
             + nodes
             + flags
             + self.reached.capacity()
@@ -254,12 +271,6 @@ impl Reach {
             + self.nodes.capacity() * size_of::<u16>()
             + self.inner.capacity() * size_of::<(usize, u32)>()
     }
-}
-
-/// Two of the tiles, the first, which lies before the other, for writing.
-fn pair(tiles: &mut [Tile], first: usize, second: usize) -> (&mut Tile, &Tile) {
-    let (before, after) = tiles.split_at_mut(second);
-    (&mut before[first], &after[0])
 }
 
 #[cfg(test)]

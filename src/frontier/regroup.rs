@@ -4,6 +4,7 @@ use super::found::FrontierCells;
 use super::group::Grouper;
 use super::tiles::Tiling;
 use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
+use std::ops::Range;
 
 /// To find a cell's frontier again costs about as much as to label so many words.
 const WORDS_PER_CELL: usize = 8;
@@ -33,12 +34,19 @@ impl Regroup {
     ) -> bool {
         let most_cells = plane.words().len() / WORDS_PER_CELL + MIN_CELLS;
         self.cells.clear();
-        let done = self.take_touched(plane, tiling, changed, neighbourhood, found, most_cells).is_some();
+        let rows = rows_of(tiling, changed);
+        let done = self.take_touched(plane, tiling, changed, &rows, neighbourhood, found, most_cells).is_some();
         if done {
             self.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
             self.grouper.group(&self.cells, neighbourhood, min_cells, &mut self.fresh);
-            // Kept are those whose cells are still in the plane.
-            found.replace(|cells| cells.first().is_some_and(|&cell| plane.contains(cell)), &self.fresh);
+            // Kept are those whose cells are still in the plane: all that have no cell within
+            // or beside the rows that changed.
+            let is_far = |cells: &[Cell]| match cells {
+                [first, .., last] => first.y > rows.end || last.y + 1 < rows.start,
+                _ => false,
+            };
+            let is_kept = |cells: &[Cell]| is_far(cells) || cells.first().is_some_and(|&cell| plane.contains(cell));
+            found.replace(is_kept, &self.fresh);
         }
         for &cell in &self.cells {
             plane.insert(cell);
@@ -53,15 +61,13 @@ impl Regroup {
         plane: &mut BitPlane,
         tiling: &Tiling,
         changed: &[bool],
+        rows: &Range<i32>,
         neighbourhood: Neighbourhood,
         found: &FrontierCells,
         most_cells: usize,
     ) -> Option<()> {
-        let mut rows: Option<(i32, i32)> = None;
         for tile in (0..tiling.len()).filter(|&tile| changed[tile]) {
             let window = tiling.window(tile);
-            let (low, high) = (window.rows.start as i32, window.rows.end as i32);
-            rows = Some(rows.map_or((low, high), |rows| (rows.0.min(low), rows.1.max(high))));
             for y in window.rows.clone() {
                 for index in window.words.clone() {
                     while let bits @ 1.. = plane.row(y)[index] {
@@ -73,9 +79,8 @@ impl Regroup {
         }
         // What is left of the frontiers that lost a cell; their cells are in the order of rows,
         // and they in that of their first cells.
-        let (low, high) = rows.unwrap_or((0, 0));
-        let begins_before = |cells: &&[Cell]| cells.first().is_some_and(|first| first.y < high);
-        let is_near = |cells: &[Cell]| cells.last().is_some_and(|last| last.y >= low);
+        let begins_before = |cells: &&[Cell]| cells.first().is_some_and(|first| first.y < rows.end);
+        let is_near = |cells: &[Cell]| cells.last().is_some_and(|last| last.y >= rows.start);
         let is_changed = |cell: &Cell| changed[tiling.at(cell.y as usize, cell.x as usize / WORD_CELLS)];
         for cells in
             found.iter().take_while(begins_before).filter(|cells| is_near(cells) && cells.iter().any(is_changed))
@@ -116,4 +121,11 @@ impl Regroup {
     pub fn memory_bytes(&self) -> usize {
         self.cells.capacity() * size_of::<Cell>() + self.grouper.memory_bytes() + self.fresh.memory_bytes()
     }
+}
+
+/// The rows from the lowest to the highest tile that changed.
+fn rows_of(tiling: &Tiling, changed: &[bool]) -> Range<i32> {
+    let windows = (0..tiling.len()).filter(|&tile| changed[tile]).map(|tile| tiling.window(tile).rows);
+    let rows = windows.map(|rows| rows.start as i32..rows.end as i32);
+    rows.reduce(|all, rows| all.start.min(rows.start)..all.end.max(rows.end)).unwrap_or(0..0)
 }

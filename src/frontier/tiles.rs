@@ -7,6 +7,7 @@
 //! is a union-find over the nodes. Only tiles that changed are labelled again.
 
 use super::contacts::for_each_contact;
+use super::joins::Pair;
 use super::labels::Labels;
 use super::window::Window;
 use crate::grid::{BitPlane, Neighbourhood};
@@ -105,10 +106,6 @@ pub(super) struct Tile {
     left: Vec<u16>,
     /// The node of the last cell of each row.
     right: Vec<u16>,
-    /// Nodes that touch a node of the tile to the right.
-    pub joined_right: Vec<[u16; 2]>,
-    /// Nodes that touch a node of the tile above.
-    pub joined_above: Vec<[u16; 2]>,
 }
 
 impl Tile {
@@ -141,56 +138,59 @@ impl Tile {
         }
     }
 
-    /// Finds which nodes touch those of the tile to the right.
-    pub fn join_right(&mut self, other: &Self, neighbourhood: Neighbourhood) {
+    /// Appends which nodes touch those of the tile to the right.
+    pub fn join_right(&self, other: &Self, neighbourhood: Neighbourhood, pairs: &mut Vec<Pair>) {
         let reach = usize::from(neighbourhood == Neighbourhood::Eight);
-        self.joined_right.clear();
+        let begin = pairs.len();
         for (row, &node) in self.right.iter().enumerate().filter(|&(_, &node)| node != NONE) {
             let touching = row.saturating_sub(reach)..(row + reach + 1).min(other.left.len());
             for &next in other.left[touching].iter().filter(|&&next| next != NONE) {
-                if self.joined_right.last() != Some(&[node, next]) {
-                    self.joined_right.push([node, next]);
-                }
+                push_new(pairs, begin, [node, next]);
             }
         }
     }
 
-    /// Finds which nodes touch those of the tile above; the windows are those of the two.
+    /// Appends which nodes touch those of the tile above; the windows are those of the two.
     pub fn join_above(
-        &mut self,
+        &self,
         other: &Self,
         plane: &BitPlane,
         [here, there]: [&Window; 2],
         neighbourhood: Neighbourhood,
+        pairs: &mut Vec<Pair>,
     ) {
-        self.joined_above.clear();
         let (row, above) = (here.row(plane, here.rows.end - 1), there.row(plane, there.rows.start));
+        let begin = pairs.len();
         for_each_contact(row, above, neighbourhood == Neighbourhood::Eight, |run, above_run| {
-            let pair = [self.highest[run as usize], other.lowest[above_run as usize]];
-            if self.joined_above.last() != Some(&pair) {
-                self.joined_above.push(pair);
-            }
+            push_new(pairs, begin, [self.highest[run as usize], other.lowest[above_run as usize]]);
         });
     }
 
     /// The pair of nodes that touch at the corner above to the right, if one does.
-    pub fn joined_at_right_corner(&self, other: &Self) -> Option<[u16; 2]> {
+    pub fn joined_at_right_corner(&self, other: &Self) -> Option<Pair> {
         joined(self.right.last(), other.left.first())
     }
 
     /// The pair of nodes that touch at the corner above to the left, if one does.
-    pub fn joined_at_left_corner(&self, other: &Self) -> Option<[u16; 2]> {
+    pub fn joined_at_left_corner(&self, other: &Self) -> Option<Pair> {
         joined(self.left.last(), other.right.first())
     }
 
     /// What the rim takes in memory beside the type itself, bytes.
     pub fn memory_bytes(&self) -> usize {
         let nodes = [&self.lowest, &self.highest, &self.left, &self.right].map(Vec::capacity).iter().sum::<usize>();
-        nodes * size_of::<u16>() + (self.joined_right.capacity() + self.joined_above.capacity()) * size_of::<[u16; 2]>()
+        nodes * size_of::<u16>()
     }
 }
 
-fn joined(a: Option<&u16>, b: Option<&u16>) -> Option<[u16; 2]> {
+/// Appends a pair, unless it is the last of those since `begin`.
+fn push_new(pairs: &mut Vec<Pair>, begin: usize, pair: Pair) {
+    if pairs[begin..].last() != Some(&pair) {
+        pairs.push(pair);
+    }
+}
+
+fn joined(a: Option<&u16>, b: Option<&u16>) -> Option<Pair> {
     let (&a, &b) = (a?, b?);
     (a != NONE && b != NONE).then_some([a, b])
 }
