@@ -8,7 +8,7 @@ use super::stages::stage;
 use super::standing::StandingSearch;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
 use crate::geometry::{Body, Path, Point, Pose};
-use crate::grid::{Costmap, GridInfo, Inflation, Thresholds};
+use crate::grid::{Costmap, GridInfo, Inflation, OccupancyGrid, Thresholds};
 use crate::planning::{Astar, GlobalPlanner, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
 use crate::selection::GoalSelector;
@@ -77,8 +77,8 @@ pub struct Lookout {
     tracker: FrontierTracker,
     frontiers: Vec<SeenFrontier>,
     path: Option<Path>,
-    /// The costmap made last, with the stamp of its map.
-    costmap: Option<(f64, Arc<Costmap>)>,
+    /// The costmap made last, with its map and the map's stamp.
+    costmap: Option<(f64, Arc<OccupancyGrid>, Arc<Costmap>)>,
 }
 
 impl Lookout {
@@ -200,14 +200,15 @@ impl Lookout {
         if let Some(costmap) = &map.costmap {
             return Arc::clone(costmap);
         }
-        match &self.costmap {
-            Some((stamp_s, costmap)) if *stamp_s == map.stamp_s => Arc::clone(costmap),
-            _ => {
-                let costmap = Arc::new(Costmap::inflate(&map.grid, &self.thresholds, &self.inflation));
-                self.costmap = Some((map.stamp_s, Arc::clone(&costmap)));
-                costmap
-            }
-        }
+        let (thresholds, inflation) = (&self.thresholds, &self.inflation);
+        let costmap = match &self.costmap {
+            Some((stamp_s, _, costmap)) if *stamp_s == map.stamp_s => return Arc::clone(costmap),
+            Some((_, old, costmap)) => costmap.reinflate(old, &map.grid, thresholds, inflation),
+            None => Costmap::inflate(&map.grid, thresholds, inflation),
+        };
+        let costmap = Arc::new(costmap);
+        self.costmap = Some((map.stamp_s, Arc::clone(&map.grid), Arc::clone(&costmap)));
+        costmap
     }
 }
 

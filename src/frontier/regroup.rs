@@ -3,6 +3,7 @@
 use super::found::FrontierCells;
 use super::group::Grouper;
 use super::tiles::Tiling;
+use super::window::Window;
 use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
 use std::ops::Range;
 
@@ -34,15 +35,15 @@ impl Regroup {
     ) -> bool {
         let most_cells = plane.words().len() / WORDS_PER_CELL + MIN_CELLS;
         self.cells.clear();
-        let rows = rows_of(tiling, changed);
-        let done = self.take_touched(plane, tiling, changed, &rows, neighbourhood, found, most_cells).is_some();
+        let tiles = ChangedTiles::new(tiling, changed);
+        let done = self.take_touched(plane, &tiles, neighbourhood, found, most_cells).is_some();
         if done {
             self.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
             self.grouper.group(&self.cells, neighbourhood, min_cells, &mut self.fresh);
             // Kept are those whose cells are still in the plane: all that have no cell within
             // or beside the rows that changed.
             let is_far = |cells: &[Cell]| match cells {
-                [first, .., last] => first.y > rows.end || last.y + 1 < rows.start,
+                [first, .., last] => first.y > tiles.rows.end || last.y + 1 < tiles.rows.start,
                 _ => false,
             };
             let is_kept = |cells: &[Cell]| is_far(cells) || cells.first().is_some_and(|&cell| plane.contains(cell));
@@ -59,15 +60,12 @@ impl Regroup {
     fn take_touched(
         &mut self,
         plane: &mut BitPlane,
-        tiling: &Tiling,
-        changed: &[bool],
-        rows: &Range<i32>,
+        tiles: &ChangedTiles<'_>,
         neighbourhood: Neighbourhood,
         found: &FrontierCells,
         most_cells: usize,
     ) -> Option<()> {
-        for tile in (0..tiling.len()).filter(|&tile| changed[tile]) {
-            let window = tiling.window(tile);
+        for window in tiles.windows() {
             for y in window.rows.clone() {
                 for index in window.words.clone() {
                     while let bits @ 1.. = plane.row(y)[index] {
@@ -79,9 +77,9 @@ impl Regroup {
         }
         // What is left of the frontiers that lost a cell; their cells are in the order of rows,
         // and they in that of their first cells.
-        let begins_before = |cells: &&[Cell]| cells.first().is_some_and(|first| first.y < rows.end);
-        let is_near = |cells: &[Cell]| cells.last().is_some_and(|last| last.y >= rows.start);
-        let is_changed = |cell: &Cell| changed[tiling.at(cell.y as usize, cell.x as usize / WORD_CELLS)];
+        let begins_before = |cells: &&[Cell]| cells.first().is_some_and(|first| first.y < tiles.rows.end);
+        let is_near = |cells: &[Cell]| cells.last().is_some_and(|last| last.y >= tiles.rows.start);
+        let is_changed = |cell: &Cell| tiles.contain(*cell);
         for cells in
             found.iter().take_while(begins_before).filter(|cells| is_near(cells) && cells.iter().any(is_changed))
         {
@@ -123,9 +121,27 @@ impl Regroup {
     }
 }
 
-/// The rows from the lowest to the highest tile that changed.
-fn rows_of(tiling: &Tiling, changed: &[bool]) -> Range<i32> {
-    let windows = (0..tiling.len()).filter(|&tile| changed[tile]).map(|tile| tiling.window(tile).rows);
-    let rows = windows.map(|rows| rows.start as i32..rows.end as i32);
-    rows.reduce(|all, rows| all.start.min(rows.start)..all.end.max(rows.end)).unwrap_or(0..0)
+/// The tiles that changed.
+struct ChangedTiles<'a> {
+    tiling: &'a Tiling,
+    changed: &'a [bool],
+    /// From the lowest to the highest of them.
+    rows: Range<i32>,
+}
+
+impl<'a> ChangedTiles<'a> {
+    fn new(tiling: &'a Tiling, changed: &'a [bool]) -> Self {
+        let mut this = Self { tiling, changed, rows: 0..0 };
+        let rows = this.windows().map(|window| window.rows.start as i32..window.rows.end as i32);
+        this.rows = rows.reduce(|all, rows| all.start.min(rows.start)..all.end.max(rows.end)).unwrap_or(0..0);
+        this
+    }
+
+    fn windows(&self) -> impl Iterator<Item = Window> {
+        (0..self.tiling.len()).filter(|&tile| self.changed[tile]).map(|tile| self.tiling.window(tile))
+    }
+
+    fn contain(&self, cell: Cell) -> bool {
+        self.changed[self.tiling.at(cell.y as usize, cell.x as usize / WORD_CELLS)]
+    }
 }

@@ -1,6 +1,6 @@
 //! Costs of standing in a cell: costmap_2d's static and inflation layers.
 
-use super::{Cell, GridInfo, OccupancyGrid, Thresholds, near, squared_distance_cells};
+use super::{Cell, CellRect, GridInfo, OccupancyGrid, Thresholds, near, squared_distance_cells};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
@@ -81,15 +81,34 @@ impl Costmap {
             leave_unknown(&mut costs, grid.data(), *thresholds);
             return Self { info, costs };
         }
-        let mut obstacles: Vec<u8> =
-            grid.data().iter().map(|&value| if is_obstacle(value) { 0 } else { u8::MAX }).collect();
-        let mut rows = grid.data().chunks_exact(info.width());
-        let mut costs = Vec::with_capacity(info.len());
-        near::for_each_row(info.width(), &mut obstacles, &table, |inflated| {
-            let from = costs.len();
-            costs.extend_from_slice(inflated);
-            leave_unknown(&mut costs[from..], rows.next().unwrap_or_default(), *thresholds);
-        });
+        let mut costs = vec![FREE_COST; info.len()];
+        let all = CellRect::of(&info);
+        inflate_rect(grid, thresholds, &table, [all, all], &mut costs);
+        Self { info, costs }
+    }
+
+    /// The costmap of `new`, of which this is the one of an earlier state: the same as
+    /// [`Self::inflate`] gives with the same settings, for the price of what changed.
+    #[must_use]
+    pub fn reinflate(
+        &self,
+        old: &OccupancyGrid,
+        new: &OccupancyGrid,
+        thresholds: &Thresholds,
+        inflation: &Inflation,
+    ) -> Self {
+        let info = *new.info();
+        let reach = inflation.reach_cells(info.resolution_m()) as usize;
+        if (&info, &info) != (old.info(), &self.info) || reach > near::LONGEST_LIMIT {
+            return Self::inflate(new, thresholds, inflation);
+        }
+        let mut costs = self.costs.clone();
+        if let Some(changed) = new.changed_rect(old) {
+            // What changes costs, and what has a say in these.
+            let anew = changed.grown(reach, &info);
+            let table = inflation.table(info.resolution_m());
+            inflate_rect(new, thresholds, &table, [anew, anew.grown(reach, &info)], &mut costs);
+        }
         Self { info, costs }
     }
 
@@ -137,6 +156,32 @@ impl Costmap {
     }
 }
 
+/// Inflates the obstacles in the second rectangle and writes the costs of the first, which
+/// lies in it. `table` holds costs by squared distance in cells.
+fn inflate_rect(
+    grid: &OccupancyGrid,
+    thresholds: &Thresholds,
+    table: &[u8],
+    [anew, seen]: [CellRect; 2],
+    costs: &mut [u8],
+) {
+    let width = grid.info().width();
+    let mut obstacles = Vec::with_capacity(seen.width * seen.height);
+    for row in grid.data().chunks_exact(width).skip(seen.y).take(seen.height) {
+        let values = row[seen.x..seen.x + seen.width].iter();
+        obstacles.extend(values.map(|&value| if value >= thresholds.occupied_min { 0 } else { u8::MAX }));
+    }
+    let rows = anew.y - seen.y..anew.y - seen.y + anew.height;
+    let mut y = anew.y;
+    near::for_each_row(seen.width, &mut obstacles, rows, table, |inflated| {
+        let at = y * width + anew.x..y * width + anew.x + anew.width;
+        let costs = &mut costs[at.clone()];
+        costs.copy_from_slice(&inflated[anew.x - seen.x..][..anew.width]);
+        leave_unknown(costs, &grid.data()[at], *thresholds);
+        y += 1;
+    });
+}
+
 /// Marks the unknown among cells that are no collision. Maps are inflated every second:
 /// this is arithmetic on many cells at a time.
 fn leave_unknown(costs: &mut [u8], values: &[i8], thresholds: Thresholds) {
@@ -150,6 +195,8 @@ fn leave_unknown(costs: &mut [u8], values: &[i8], thresholds: Thresholds) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Pose;
+    use proptest::prelude::*;
 
     const INFLATION: Inflation =
         Inflation { inscribed_radius_m: 1.0, inflation_radius_m: 3.0, cost_scaling_factor: 1.0 };
@@ -176,6 +223,35 @@ mod tests {
         let grid = OccupancyGrid::from_ascii("#????").unwrap();
         let costmap = Costmap::inflate(&grid, &Thresholds::default(), &INFLATION);
         assert_eq!(costmap.costs(), &[254, 253, 255, 255, 255]);
+    }
+
+    proptest! {
+        #[test]
+        fn what_changed_is_inflated_as_if_all_were(
+            (width, old, changes) in (1usize..60, 1usize..60).prop_flat_map(|(w, h)| {
+                let value = prop_oneof![8 => Just(0i8), 2 => Just(-1), 1 => Just(100)];
+                let change = (0..w * h, prop_oneof![Just(0i8), Just(-1), Just(100)]);
+                (Just(w), proptest::collection::vec(value, w * h), proptest::collection::vec(change, 0..4))
+            }),
+            radius_m in 0.0f64..20.0,
+        ) {
+            let info = GridInfo::new(width as u32, (old.len() / width) as u32, 1.0, Pose::default()).unwrap();
+            let old = OccupancyGrid::new(info, old).unwrap();
+            let mut new = old.clone();
+            changes.iter().for_each(|&(index, value)| new.set(info.cell(index), value));
+            let (thresholds, inflation) = (Thresholds::default(), Inflation { inflation_radius_m: radius_m, ..INFLATION });
+            let before = Costmap::inflate(&old, &thresholds, &inflation);
+            let after = before.reinflate(&old, &new, &thresholds, &inflation);
+            prop_assert_eq!(after, Costmap::inflate(&new, &thresholds, &inflation));
+        }
+    }
+
+    #[test]
+    fn a_grown_map_is_inflated_anew() {
+        let (old, new) = (OccupancyGrid::from_ascii("#..").unwrap(), OccupancyGrid::from_ascii("#....").unwrap());
+        let before = Costmap::inflate(&old, &Thresholds::default(), &INFLATION);
+        let after = before.reinflate(&old, &new, &Thresholds::default(), &INFLATION);
+        assert_eq!(after, Costmap::inflate(&new, &Thresholds::default(), &INFLATION));
     }
 
     #[test]

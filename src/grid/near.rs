@@ -7,23 +7,31 @@
 //! obstacle cost next to nothing. Exact within the limit.
 
 use super::vertical::vertical_distances;
+use std::ops::Range;
 
 /// The longest limit, cells: its square must fit 16 bits with a sign, and envelopes are
 /// faster beyond.
 pub const LONGEST_LIMIT: usize = 48;
 
-/// Calls `visit` for each row of a grid of `width` columns with a value for each cell: the
+/// Calls `visit` for some rows of a grid of `width` columns with a value for each cell: the
 /// one that `by_squared` has for the squared distance in cells to the nearest obstacle,
 /// and beyond its end 0. Its length must be `limit^2 + 1` for a limit of at most
 /// [`LONGEST_LIMIT`] cells. Obstacles are 0 and all else 255 in `obstacles`, row-major;
 /// it is used up.
-pub fn for_each_row(width: usize, obstacles: &mut [u8], by_squared: &[u8], visit: impl FnMut(&[u8])) {
+pub fn for_each_row(
+    width: usize,
+    obstacles: &mut [u8],
+    rows: Range<usize>,
+    by_squared: &[u8],
+    visit: impl FnMut(&[u8]),
+) {
     let limit = by_squared.len().saturating_sub(1).isqrt().min(LONGEST_LIMIT) as u8;
     vertical_distances(width, obstacles);
+    let heights = &obstacles[rows.start * width..rows.end * width];
     if limit <= BYTE_LIMIT {
-        slide_rows::<u8>(width, obstacles, limit, by_squared, visit);
+        slide_rows::<u8>(width, heights, limit, by_squared, visit);
     } else {
-        slide_rows::<i16>(width, obstacles, limit, by_squared, visit);
+        slide_rows::<i16>(width, heights, limit, by_squared, visit);
     }
 }
 
@@ -136,7 +144,7 @@ mod tests {
             let by_squared: Vec<u8> = (0..=limit * limit).map(|squared| 1 + (squared % 251) as u8).collect();
             let mut obstacles: Vec<u8> = cells.iter().map(|&is_obstacle| if is_obstacle { 0 } else { 255 }).collect();
             let mut near = Vec::new();
-            for_each_row(width, &mut obstacles, &by_squared, |row| near.extend_from_slice(row));
+            for_each_row(width, &mut obstacles, 0..info.height(), &by_squared, |row| near.extend_from_slice(row));
             let exact = squared_distance_cells(&info, |i| cells[i]);
             let value = |&squared: &u32| by_squared.get(squared as usize).copied().unwrap_or(0);
             prop_assert_eq!(near, exact.iter().map(value).collect::<Vec<u8>>());

@@ -1,6 +1,6 @@
 //! A rectangle of new values: `map_msgs/OccupancyGridUpdate`.
 
-use super::{Cell, OccupancyGrid};
+use super::{Cell, CellRect, OccupancyGrid};
 
 /// A rectangle of cells, lowest row first, to be laid on a grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,22 +84,31 @@ impl GridPatch {
     /// of the same size; `None` where they are equal.
     #[must_use]
     pub fn difference(old: &OccupancyGrid, new: &OccupancyGrid) -> Option<Self> {
-        let width = new.info().width();
-        let rows = || old.data().chunks_exact(width).zip(new.data().chunks_exact(width));
-        let changed: Vec<usize> = rows().enumerate().filter(|(_, (a, b))| a != b).map(|(y, _)| y).collect();
-        let (&bottom, &top) = (changed.first()?, changed.last()?);
-        let columns = rows().flat_map(|(a, b)| {
-            let differs = |&x: &usize| a.get(x) != b.get(x);
-            [(0..width).find(differs), (0..width).rfind(differs)].into_iter().flatten()
-        });
-        let (left, right) = columns.fold((width, 0), |(low, high), x| (low.min(x), high.max(x)));
-        let data = new.data().chunks_exact(width).skip(bottom).take(top + 1 - bottom);
+        let CellRect { x, y, width, height } = new.changed_rect(old)?;
+        let rows = new.data().chunks_exact(new.info().width()).skip(y).take(height);
         Some(Self {
-            corner: Cell::new(left as i32, bottom as i32),
-            width: (right + 1 - left) as u32,
-            height: (top + 1 - bottom) as u32,
-            data: data.flat_map(|row| row.get(left..=right).unwrap_or_default().iter().copied()).collect(),
+            corner: Cell::new(x as i32, y as i32),
+            width: width as u32,
+            height: height as u32,
+            data: rows.flat_map(|row| &row[x..x + width]).copied().collect(),
         })
+    }
+}
+
+impl OccupancyGrid {
+    /// The smallest rectangle that holds all cells in which an older grid of the same size
+    /// differs; `None` where they are equal.
+    #[must_use]
+    pub fn changed_rect(&self, old: &Self) -> Option<CellRect> {
+        let width = self.info().width();
+        let rows = self.data().chunks_exact(width).zip(old.data().chunks_exact(width)).enumerate();
+        let differs = |(a, b): (&i8, &i8)| a != b;
+        let changed = rows.filter(|(_, (new, old))| new != old).filter_map(|(y, (new, old))| {
+            let cells = || new.iter().zip(old);
+            let (x, last) = (cells().position(differs)?, cells().rposition(differs)?);
+            Some(CellRect { x, y, width: last + 1 - x, height: 1 })
+        });
+        changed.reduce(CellRect::union)
     }
 }
 

@@ -37,6 +37,15 @@ impl CellRect {
         Self { x, y, width: right - x, height: top - y }
     }
 
+    /// With so many cells more on every side, as far as there are any.
+    #[must_use]
+    pub fn grown(self, cells: usize, info: &GridInfo) -> Self {
+        let (x, y) = (self.x.saturating_sub(cells), self.y.saturating_sub(cells));
+        let right = (self.x + self.width + cells).min(info.width());
+        let top = (self.y + self.height + cells).min(info.height());
+        Self { x, y, width: right - x, height: top - y }
+    }
+
     /// Whether it has no cell.
     #[must_use]
     pub const fn is_empty(&self) -> bool {

@@ -68,9 +68,12 @@ impl RobotMap {
             return false;
         }
         let grid = Arc::clone(&received.grid);
-        let costmap = match costmap {
-            Some(costmap) => Costmap::from_published(&costmap.grid).on_grid(grid.info()),
-            None => Costmap::inflate(&grid, &self.thresholds, &self.inflation),
+        let before = self.known.as_ref().map(|known| &known.snapshot);
+        let before = before.and_then(|snapshot| Some((&snapshot.grid, snapshot.costmap.as_ref()?)));
+        let costmap = match (costmap, before) {
+            (Some(costmap), _) => Costmap::from_published(&costmap.grid).on_grid(grid.info()),
+            (None, Some((old, costmap))) => costmap.reinflate(old, &grid, &self.thresholds, &self.inflation),
+            (None, None) => Costmap::inflate(&grid, &self.thresholds, &self.inflation),
         };
         let snapshot = MapSnapshot { stamp_s: clock.of(received.stamp_s), grid, costmap: Some(Arc::new(costmap)) };
         self.known = Some(KnownMap { version, snapshot, received });

@@ -109,7 +109,9 @@ impl Plant {
         mapper.integrate(&scan.0, &scan.1)?;
         let mut filter = MotionFilter::default();
         filter.accepts(&lidar_pose, 0.0, &config.mapper);
-        let published = inflated(mapper.publish()?, &config, &inflation, 0.0);
+        let grid = mapper.publish()?;
+        let costmap = Costmap::inflate(&grid, &config.thresholds, &inflation);
+        let published = Published { stamp_s: 0.0, grid: Arc::new(grid), costmap: Arc::new(costmap) };
         let mut coverage = Coverage::new(&target);
         coverage.update(&published.grid);
         let mut this = Self {
@@ -259,15 +261,12 @@ impl Plant {
             self.published.stamp_s = stamp_s;
             // On known ground nothing changes for long, and inflating takes its time.
             if grid != *self.published.grid {
-                self.published = inflated(grid, &self.config, &self.inflation, stamp_s);
+                let Published { grid: old, costmap, .. } = &self.published;
+                let costmap = costmap.reinflate(old, &grid, &self.config.thresholds, &self.inflation);
+                self.published = Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) };
                 self.coverage.update(&self.published.grid);
             }
         }
         Ok(happened)
     }
-}
-
-fn inflated(grid: OccupancyGrid, config: &SimConfig, inflation: &Inflation, stamp_s: f64) -> Published {
-    let costmap = Costmap::inflate(&grid, &config.thresholds, inflation);
-    Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) }
 }
