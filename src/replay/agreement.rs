@@ -4,16 +4,14 @@
 //! on from the recording's goal as if it had chosen that ([`Explorer::adopt`]), so that one
 //! parting is counted once and does not make all that follows another story.
 
+use super::cause::{AT_FRONTIER_M, cause};
 use super::goals::{RecordedGoal, RecordedGoals};
 use super::robot::{LAG_S, SAME_M};
-use crate::explore::{CandidateRecord, CandidateStatus, Decision, DecisionRecord, Explorer};
+use crate::explore::{Decision, DecisionRecord, Explorer};
 use crate::geometry::{Point, Pose};
 use crate::robot::Observation;
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// A goal of the recording within this distance of a frontier was sent there, metres.
-const AT_FRONTIER_M: f64 = 1.0;
 
 /// A decision that the recording did not make, or one of the recording that we did not.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -72,7 +70,7 @@ pub struct Agreement {
     apart_since_s: Option<f64>,
     #[serde(skip)]
     last: Option<DecisionRecord>,
-    /// When maps came, by their stamps.
+    /// When maps came, and their stamps.
     #[serde(skip)]
     maps: Vec<(f64, f64)>,
 }
@@ -126,8 +124,12 @@ impl Agreement {
         self.last = Some(record.clone());
     }
 
-    /// To be called at the end: how the recording's goals ended.
-    pub fn finish(&mut self, goals: &RecordedGoals) {
+    /// To be called at the end: judges the last decision, and takes down how the recording's
+    /// goals ended.
+    pub fn finish(&mut self, goals: &RecordedGoals, now_s: f64) {
+        if let Some(pending) = self.pending.take() {
+            self.judge(&pending, goals, now_s);
+        }
         let driven = goals.all().iter().filter(|goal| !goal.is_turn);
         self.recorded_goals.iter_mut().zip(driven).for_each(|(sight, goal)| sight.goal = goal.clone());
     }
@@ -180,10 +182,11 @@ impl Agreement {
 
     /// Whether a map came between our decision and the recording's, made about then.
     fn is_another_map(&self, ours_s: f64, theirs_s: Option<f64>) -> bool {
-        let Some(theirs_s) = theirs_s.filter(|theirs_s| (theirs_s - ours_s).abs() <= LAG_S) else { return false };
-        let (first_s, second_s) = (ours_s.min(theirs_s), ours_s.max(theirs_s));
+        let about_then = |theirs_s: &f64| (theirs_s - ours_s).abs() <= LAG_S && *theirs_s != ours_s;
+        let Some(theirs_s) = theirs_s.filter(about_then) else { return false };
         // We decide in the moment in which a map comes: that one is ours.
-        self.maps.iter().any(|&(came_s, _)| came_s >= first_s && came_s <= second_s && theirs_s != ours_s)
+        let between = ours_s.min(theirs_s)..=ours_s.max(theirs_s);
+        self.maps.iter().any(|(came_s, _)| between.contains(came_s))
     }
 
     fn part(
@@ -198,10 +201,8 @@ impl Agreement {
         let (cause, detail) = match (record, &recorded_goal) {
             (Some(_), Some(_)) if self.is_another_map(time_s, recorded_at_s) => {
                 let by_s = recorded_at_s.unwrap_or(time_s) - time_s;
-                (
-                    "it decided on another map",
-                    format!("{:.1} s {}", by_s.abs(), if by_s < 0.0 { "before" } else { "after" }),
-                )
+                let when = if by_s < 0.0 { "before" } else { "after" };
+                ("it decided on another map", format!("{:.1} s {when}", by_s.abs()))
             }
             (Some(record), Some(theirs)) => cause(record, theirs),
             _ => (otherwise, String::new()),
@@ -236,36 +237,4 @@ fn agrees(pending: &Pending, goals: &RecordedGoals, now_s: f64) -> bool {
         }
         None => pending.recorded.is_none() || goals.in_force().is_none(),
     }
-}
-
-/// Why we did not choose the goal of the recording, and the figures.
-fn cause(record: &DecisionRecord, theirs: &Pose) -> (&'static str, String) {
-    let distance_m = |candidate: &CandidateRecord| {
-        let target = theirs.distance_to(Point::new(candidate.target.x, candidate.target.y));
-        candidate.goal.map_or(target, |goal| target.min(theirs.distance_to(goal.position())))
-    };
-    let ranked = record.candidates.iter().zip(1..);
-    let nearest = ranked.min_by(|(a, _), (b, _)| distance_m(a).total_cmp(&distance_m(b)));
-    let Some((candidate, rank)) = nearest.filter(|(candidate, _)| distance_m(candidate) <= AT_FRONTIER_M) else {
-        return ("no frontier of ours lies near its goal", String::new());
-    };
-    let total = |candidate: &CandidateRecord| candidate.scores.get("total").copied().unwrap_or(f64::NAN);
-    let best = record.candidates.iter().find(|candidate| candidate.status == CandidateStatus::Chosen);
-    let detail = match best {
-        Some(best) if candidate.status == CandidateStatus::Eligible => {
-            format!("our no. {rank}: {:.2} against {:.2}", total(candidate), total(best))
-        }
-        _ => String::new(),
-    };
-    let cause = match candidate.status {
-        CandidateStatus::Chosen => "we go to the same frontier, but stand elsewhere",
-        CandidateStatus::Eligible if record.goal.is_none() => "we looked round first",
-        CandidateStatus::Eligible => "its frontier was not our best",
-        CandidateStatus::NoPath => "we found no way to its frontier",
-        CandidateStatus::Unreachable => "its frontier was unreachable to us",
-        CandidateStatus::Taboo => "its frontier was taboo to us",
-        CandidateStatus::OutsideRegion => "its frontier lies outside of our region",
-        CandidateStatus::AlreadyThere => "its frontier lies where the robot stands",
-    };
-    (cause, detail)
 }

@@ -2,6 +2,7 @@
 //! the time of a bag (the rim).
 
 mod agreement;
+mod cause;
 mod goals;
 mod guess;
 mod inputs;

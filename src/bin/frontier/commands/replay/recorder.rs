@@ -84,7 +84,7 @@ impl<'a> Recorder<'a> {
         end: &End,
         total_s: f64,
     ) -> RunRecord {
-        self.agreement.finish(robot.recorded_goals());
+        self.agreement.finish(robot.recorded_goals(), robot.now_s());
         let counts = *explorer.counts();
         let census =
             robot.player().grid().map(|grid| (grid.census(&self.settings.thresholds), grid.info().cell_area_m2()));
