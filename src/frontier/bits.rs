@@ -2,7 +2,10 @@
 //! open, what is beside it, and what is connected. O(cells / 64 + runs) after the grid
 //! has been packed.
 
-use super::runs::{Run, Runs};
+use super::labels::Labels;
+use super::runs::{Run, runs_of};
+use super::shifts::neighbours_of_row;
+use super::window::Window;
 use super::{DetectError, DetectionInput, DetectorParams, Reachability};
 use crate::grid::{BitPlane, BitPlanes, Cell, Neighbourhood};
 
@@ -25,9 +28,11 @@ impl Territory {
         planes.pack(input.grid, &params.thresholds);
         let mut open = planes.free().clone();
         if params.reachability == Reachability::WallsBlock {
-            let mut runs = Runs::default();
-            runs.label(&open, Neighbourhood::Four);
-            runs.clear_others(&mut open, runs.component_at(seed));
+            let (mut labels, all) = (Labels::default(), Window::of(&open));
+            labels.label(planes.free(), &all, Neighbourhood::Four);
+            let kept = labels.component_at(planes.free(), &all, seed);
+            let is_kept = |component| Some(component) == kept;
+            labels.select(planes.free(), &all, is_kept, |y, i, word| open.row_mut(y)[i] = word);
         }
         Ok(Self { planes, open })
     }
@@ -43,30 +48,10 @@ impl Territory {
 /// A plane together with the neighbours of its cells.
 pub(super) fn with_neighbours(source: &BitPlane, neighbours: Neighbourhood) -> BitPlane {
     let mut out = source.clone();
-    let empty = vec![0; source.row_words()];
-    // What spreads to the left and to the right: corners are the sides of what is above
-    // and below.
-    let mut sideways = vec![0; source.row_words()];
+    let mut beside = vec![0; source.row_words()];
     for y in 0..source.height() {
-        let here = source.row(y);
-        let below = y.checked_sub(1).map_or(&*empty, |y| source.row(y));
-        let above = if y + 1 < source.height() { source.row(y + 1) } else { &empty };
-        let row = out.row_mut(y);
-        for (((word, sideways), &here), (&below, &above)) in
-            row.iter_mut().zip(&mut sideways).zip(here).zip(below.iter().zip(above))
-        {
-            *word = here | below | above;
-            *sideways = if neighbours == Neighbourhood::Eight { *word } else { here };
-        }
-        let mut before = 0;
-        for (i, word) in row.iter_mut().enumerate() {
-            let after = sideways.get(i + 1).copied().unwrap_or_default();
-            *word |= sideways[i] << 1 | before >> 63 | sideways[i] >> 1 | after << 63;
-            before = sideways[i];
-        }
-        if let Some(last) = row.last_mut() {
-            *last &= source.last_word_mask();
-        }
+        neighbours_of_row(source, neighbours, y, 0..source.row_words(), &mut beside);
+        out.row_mut(y).iter_mut().zip(&beside).for_each(|(word, beside)| *word |= beside);
     }
     out
 }
@@ -90,17 +75,13 @@ pub(super) fn cells(plane: &BitPlane) -> Vec<Cell> {
 /// The connected components of a plane: each one's runs with their rows, row-major,
 /// the components by their first cells.
 pub(super) fn components(plane: &BitPlane, neighbours: Neighbourhood) -> Vec<Vec<(usize, Run)>> {
-    let mut runs = Runs::default();
-    runs.label(plane, neighbours);
-    let mut places = vec![usize::MAX; runs.len()];
-    let mut components: Vec<Vec<(usize, Run)>> = Vec::new();
-    for (y, run, component) in runs.iter() {
-        let place = &mut places[component as usize];
-        if *place == usize::MAX {
-            *place = components.len();
-            components.push(Vec::new());
+    let mut labels = Labels::default();
+    labels.label(plane, &Window::of(plane), neighbours);
+    let mut components = vec![Vec::new(); labels.components()];
+    for y in 0..plane.height() {
+        for (run, &component) in runs_of(plane.row(y)).zip(labels.row(y)) {
+            components[component as usize].push((y, run));
         }
-        components[*place].push((y, run));
     }
     components
 }

@@ -8,7 +8,7 @@
 
 use super::contacts::{Starts, for_each_band_contact};
 use super::found::FrontierCells;
-use super::union_find::unite;
+use super::union_find::{make_room, unite};
 use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_counts};
 
 /// Of a run: it is the first of its component, and what stands with it is the number of
@@ -108,16 +108,8 @@ impl BitWork for Connect<'_> {
         let (mut below_first, mut first) = (0, 0);
         let mut below = [bands.none; 2];
         for band in 0..bands.count() {
-            // Every run is its own parent at first; more of them than the band can have.
-            let known = of_run.len() as u32;
-            if known < first + most_in_band {
-                let more = first + 4 * most_in_band - known;
-                if of_run.capacity() - of_run.len() < more as usize {
-                    // Less greedy than doubling: there may be a run for every fourth cell.
-                    of_run.reserve_exact((more as usize).max(of_run.len() / 32));
-                }
-                of_run.extend(known..known + more);
-            }
+            // There may be a run for every fourth cell.
+            make_room(of_run, first, most_in_band, 32);
             let rows = bands.band(band);
             let nearest = if bands.eight { below[1] } else { below[0] };
             let words = rows[0].iter().zip(rows[1]).zip(below[0].iter().zip(below[1]).zip(nearest));

@@ -6,7 +6,7 @@
 //! Ackermann function.
 
 use super::contacts::{Starts, count_runs, for_each_contact};
-use super::union_find::unite;
+use super::union_find::{make_room, unite};
 use super::window::Window;
 use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_counts};
 
@@ -129,16 +129,8 @@ impl BitWork for ConnectRows<'_> {
         let mut above: &[u64] = &[];
         for y in window.rows.clone() {
             row_first.push(first);
-            // Every run is its own parent at first; more of them than the row can have.
-            let known = of_run.len() as u32;
-            if known < first + most_in_row {
-                let more = first + 4 * most_in_row - known;
-                if of_run.capacity() - of_run.len() < more as usize {
-                    // Less greedy than doubling: there may be a run for every other cell.
-                    of_run.reserve_exact((more as usize).max(of_run.len() / 8));
-                }
-                of_run.extend(known..known + more);
-            }
+            // There may be a run for every other cell.
+            make_room(of_run, first, most_in_row, 8);
             let row = window.row(plane, y);
             let count = for_each_contact(row, above, eight, |run, above_run| {
                 unite(of_run, first + run, above_first + above_run);

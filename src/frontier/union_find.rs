@@ -1,6 +1,21 @@
 //! Union-find over indices whose root is always the smallest, with path halving (Tarjan
 //! and van Leeuwen, JACM 1984). A parent is never greater than its child.
 
+/// Makes room for `most` members from `first` on, more than a row can have: each is its own
+/// parent at first. The buffer grows by one part in `share` at the least, which is less greedy
+/// than doubling.
+#[inline(always)]
+pub(super) fn make_room(parents: &mut Vec<u32>, first: u32, most: u32, share: usize) {
+    let known = parents.len() as u32;
+    if known < first + most {
+        let more = first + 4 * most - known;
+        if parents.capacity() - parents.len() < more as usize {
+            parents.reserve_exact((more as usize).max(parents.len() / share));
+        }
+        parents.extend(known..known + more);
+    }
+}
+
 /// Unites the sets of two members.
 #[inline(always)]
 pub(super) fn unite(parents: &mut [u32], a: u32, b: u32) {

@@ -81,12 +81,6 @@ impl<R: Read + Seek> BagRobot<R> {
         self.now_s
     }
 
-    /// The whole time.
-    #[must_use]
-    pub const fn duration_s(&self) -> f64 {
-        self.end_s
-    }
-
     /// Where the robot was when that was last known.
     #[must_use]
     pub const fn pose(&self) -> Option<Pose> {
