@@ -55,7 +55,7 @@ fn detect(
     assert!(found.is_sorted_by_key(|f| f.cells.first().map(row_major)), "{name}: frontiers out of order");
     let ids: Vec<u64> = found.iter().map(|f| f.id).collect();
     assert_eq!(ids, (0..found.len() as u64).collect::<Vec<_>>(), "{name}");
-    let mut all: Vec<Cell> = found.iter().flat_map(|f| f.cells.clone()).collect();
+    let mut all: Vec<Cell> = found.iter().flat_map(|f| f.cells.to_vec()).collect();
     let count = all.len();
     all.sort_unstable();
     all.dedup();
@@ -166,7 +166,7 @@ fn a_map_that_grew_to_the_lower_left_keeps_its_frontier() {
         let after = detect(name, &mut *detector, &large, IN_THE_ROOM).unwrap();
         let moved: Vec<Vec<Cell>> =
             before.iter().map(|f| f.cells.iter().map(|c| c.offset((30, 10))).collect()).collect();
-        assert_eq!(after.iter().map(|f| f.cells.clone()).collect::<Vec<_>>(), moved, "{name}");
+        assert_eq!(after.iter().map(|f| f.cells.to_vec()).collect::<Vec<_>>(), moved, "{name}");
         // And back: maps of Cartographer shrink as well.
         assert_eq!(detect(name, &mut *detector, &small, IN_THE_ROOM).unwrap(), before, "{name}");
     });

@@ -21,6 +21,7 @@ use super::shifts::neighbours_of_row;
 use super::window::Window;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{BitPlane, BitPlanes, Cell, Neighbourhood};
+use std::sync::Arc;
 
 /// The detector, with the buffers it keeps between maps.
 #[derive(Clone, Debug)]
@@ -33,7 +34,7 @@ pub struct Bitplane {
     flood: Flood,
     labels: Labels,
     clusters: Clusters,
-    found: FrontierCells,
+    found: Arc<FrontierCells>,
     /// A row of neighbours.
     row: Vec<u64>,
 }
@@ -50,7 +51,7 @@ impl Bitplane {
             flood: Flood::default(),
             labels: Labels::default(),
             clusters: Clusters::default(),
-            found: FrontierCells::default(),
+            found: Arc::default(),
             row: Vec::new(),
         }
     }
@@ -62,7 +63,8 @@ impl Bitplane {
     /// # Errors
     /// [`DetectError`] when the question has no answer on this map.
     pub fn detect_cells(&mut self, input: &DetectionInput<'_>) -> Result<&FrontierCells, DetectError> {
-        let Self { params, planes, entered, pocket, found, .. } = self;
+        let Self { params, planes, entered, pocket, .. } = self;
+        let found = FrontierCells::anew(&mut self.found);
         let seed = params.seed(input.grid, &input.robot_in_map)?;
         if pocket.search(input.grid, params, seed, planes, entered, found).is_none() {
             planes.pack(input.grid, &params.thresholds);
@@ -71,7 +73,8 @@ impl Bitplane {
                 Reachability::Textbook => self.mark_as_the_textbook(seed),
             }
             let min_cells = self.params.min_cells(input.grid.info());
-            self.clusters.collect(self.planes.unknown(), self.params.neighbours, min_cells, &mut self.found);
+            let found = FrontierCells::anew(&mut self.found);
+            self.clusters.collect(self.planes.unknown(), self.params.neighbours, min_cells, found);
         }
         Ok(&self.found)
     }
@@ -141,7 +144,8 @@ impl FrontierDetector for Bitplane {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        Ok(self.detect_cells(input)?.to_frontiers())
+        self.detect_cells(input)?;
+        Ok(FrontierCells::share(&self.found))
     }
 }
 

@@ -9,7 +9,7 @@
 //! On maps of buildings each row is visited a few times. A spiral or a maze can take as
 //! many sweeps as it has turns: after so many visits the fill gives up.
 
-use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
+use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_instructions};
 
 /// Visits and looks at rows, in rows of the plane, after which to label runs is cheaper.
 const MOST_STEPS_PER_ROW: usize = 48;
@@ -30,6 +30,24 @@ impl Span {
 
     fn join(&mut self, other: Self) {
         *self = Self { start: self.start.min(other.start), end: self.end.max(other.end) };
+    }
+}
+
+/// The work of a fill from a seed that is reached.
+struct Sweeps<'a> {
+    flood: &'a mut Flood,
+    open: &'a BitPlane,
+    seed: Cell,
+    reached: &'a mut BitPlane,
+    most_steps: usize,
+}
+
+impl BitWork for Sweeps<'_> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn run(self) -> Option<()> {
+        self.flood.sweep(self.open, self.seed, self.reached, self.most_steps)
     }
 }
 
@@ -75,11 +93,17 @@ impl Flood {
             return Some(());
         }
         self.eight = neighbourhood == Neighbourhood::Eight;
+        reached.insert(seed);
+        with_bit_instructions(Sweeps { flood: self, open, seed, reached, most_steps })
+    }
+
+    /// Sweeps up and down from the seed as long as there is something to take.
+    #[inline(always)]
+    fn sweep(&mut self, open: &BitPlane, seed: Cell, reached: &mut BitPlane, most_steps: usize) -> Option<()> {
         self.row.resize(open.row_words(), 0);
         self.none.resize(open.row_words(), 0);
         self.pending.clear();
         self.pending.resize(open.height(), Span::NONE);
-        reached.insert(seed);
         let (first, word) = (seed.y as usize, seed.x as usize / WORD_CELLS);
         self.pending[first] = Span { start: word, end: word + 1 };
         let (mut low, mut high, mut steps) = (first, first, 0);
@@ -122,6 +146,7 @@ impl Flood {
 
     /// Takes into a row what is beside the reached cells of those around it; whether the
     /// row below and the one above have then something to take from it.
+    #[inline(always)]
     fn visit(&mut self, open: &BitPlane, reached: &mut BitPlane, y: usize) -> (bool, bool) {
         let Self { pending, row, none, eight } = self;
         let none = &none[..];
@@ -136,12 +161,14 @@ impl Flood {
         reached.row_mut(y)[start..end].copy_from_slice(&row[start..end]);
         let filled = Span { start, end };
         let offered = if *eight { widen(row, filled, reached.row(y)) } else { filled };
-        let mut offer_to = |y: usize| {
+        let mut takes = [false; 2];
+        for (takes, y) in takes.iter_mut().zip([y.checked_sub(1), has_above.then_some(y + 1)]) {
+            let Some(y) = y else { continue };
             let taken = taken_from(row, offered, open.row(y), reached.row(y));
             pending[y].join(taken);
-            !taken.is_empty()
-        };
-        (y > 0 && offer_to(y - 1), has_above && offer_to(y + 1))
+            *takes = !taken.is_empty();
+        }
+        (takes[0], takes[1])
     }
 
     /// What the buffers take in memory, bytes.
@@ -196,15 +223,21 @@ fn fill_upwards(row: &mut [u64], span: Span, here: &[u64], cells: &[u64]) -> usi
 /// as that leads; where it begins.
 #[inline(always)]
 fn fill_downwards(row: &mut [u64], span: Span, here: &[u64], cells: &[u64]) -> usize {
+    let words = span.start..span.end;
+    for (seeds, &cells) in row[words.clone()].iter_mut().zip(&cells[words.clone()]) {
+        *seeds = filled_downwards(*seeds, cells);
+    }
+    // All bits if the first cell of the word after is filled.
     let mut from_next = 0;
-    let mut fill = |seeds: u64, cells: u64| {
-        let seeds = seeds | from_next & cells;
-        let filled = if seeds >> 1 & cells & !seeds == 0 { seeds } else { filled_downwards(seeds, cells) };
-        from_next = filled << 63;
+    let mut fill = |filled: u64, cells: u64| {
+        let gaps = !cells;
+        let last_run = if gaps == 0 { u64::MAX } else { !(u64::MAX >> gaps.leading_zeros()) };
+        let filled = filled | last_run & from_next;
+        from_next = (filled & 1).wrapping_neg();
         filled
     };
-    for (seeds, &cells) in row[span.start..span.end].iter_mut().zip(&cells[span.start..span.end]).rev() {
-        *seeds = fill(*seeds, cells);
+    for (filled, &cells) in row[words.clone()].iter_mut().zip(&cells[words]).rev() {
+        *filled = fill(*filled, cells);
     }
     let mut start = span.start;
     while start > 0 && row[start] << 63 & cells[start - 1] & !here[start - 1] != 0 {
@@ -230,14 +263,21 @@ const fn filled_downwards(mut seeds: u64, mut cells: u64) -> u64 {
 #[inline(always)]
 fn taken_from(row: &[u64], filled: Span, open: &[u64], reached: &[u64]) -> Span {
     let words = filled.start..filled.end;
-    let mut takes =
-        row[words.clone()].iter().zip(&open[words.clone()]).zip(&reached[words]).map(|((a, b), c)| a & b & !c != 0);
+    let taken = || {
+        row[words.clone()].iter().zip(&open[words.clone()]).zip(&reached[words.clone()]).map(|((a, b), c)| a & b & !c)
+    };
+    // To look at all, four at a time, is faster than to look for the first.
+    if taken().fold(0, |any, word| any | word) == 0 {
+        return Span::NONE;
+    }
+    let mut takes = taken().map(|word| word != 0);
     let Some(first) = takes.position(|takes| takes) else { return Span::NONE };
     let start = filled.start + first;
     Span { start, end: start + 1 + takes.rposition(|takes| takes).map_or(0, |after| after + 1) }
 }
 
 /// Adds the cells to the left and right within a span, one word wider than what is filled.
+#[inline(always)]
 fn widen(row: &mut [u64], filled: Span, here: &[u64]) -> Span {
     let wider = Span { start: filled.start.saturating_sub(1), end: (filled.end + 1).min(row.len()) };
     row[wider.start..filled.start].copy_from_slice(&here[wider.start..filled.start]);

@@ -1,8 +1,10 @@
 //! What detectors find: frontiers as lists of cells, in one list.
 
+use super::cells::Cells;
 use super::{CellSide, Frontier};
 use crate::grid::Cell;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The cells of frontiers, one after the other in one list: what a detector finds,
 /// without a list for each.
@@ -14,6 +16,11 @@ pub struct FrontierCells {
 }
 
 impl FrontierCells {
+    /// One frontier alone.
+    pub(super) fn of_one(cells: Vec<Cell>) -> Self {
+        Self { ends: vec![cells.len() as u32], cells }
+    }
+
     /// Number of frontiers.
     #[must_use]
     pub const fn len(&self) -> usize {
@@ -129,18 +136,17 @@ impl FrontierCells {
         &self.cells[self.start(index)..self.ends[index] as usize]
     }
 
-    /// Makes room for so many cells and frontiers, and for a cell at the end and a frontier
-    /// at the beginning that serve as one pleases.
-    pub(super) fn prepare(&mut self, cells: usize, frontiers: usize) -> (&mut [Cell], &mut [u32]) {
-        self.cells.resize(cells + 1, Cell::new(0, 0));
-        self.ends.resize(frontiers + 1, 0);
+    /// Makes room for so many cells and frontiers, and for some cells more that serve as one
+    /// pleases.
+    pub(super) fn prepare(&mut self, cells: usize, frontiers: usize, more: usize) -> (&mut [Cell], &mut [u32]) {
+        self.cells.resize(cells + more, Cell::new(0, 0));
+        self.ends.resize(frontiers, 0);
         (&mut self.cells, &mut self.ends)
     }
 
-    /// Drops what serves no longer.
-    pub(super) fn finish(&mut self) {
-        self.cells.pop();
-        self.ends.remove(0);
+    /// Drops the cells that serve no longer.
+    pub(super) fn finish(&mut self, cells: usize) {
+        self.cells.truncate(cells);
     }
 
     /// Puts a cell in its place.
@@ -148,12 +154,35 @@ impl FrontierCells {
         self.cells[place as usize] = cell;
     }
 
+    /// All cells, those of one frontier after those of another.
+    pub(super) fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Lists for what is found anew, of which nothing is to be read: these, or others if
+    /// frontiers made of them are still about.
+    pub(super) fn anew(shared: &mut Arc<Self>) -> &mut Self {
+        if Arc::get_mut(shared).is_none() {
+            let with_room =
+                Self { cells: Vec::with_capacity(shared.cells.len()), ends: Vec::with_capacity(shared.ends.len()) };
+            *shared = Arc::new(with_room);
+        }
+        Arc::make_mut(shared)
+    }
+
     /// Frontiers of unknown cells.
     #[must_use]
     pub fn to_frontiers(&self) -> Vec<Frontier> {
-        let frontier =
-            |(id, cells): (u64, &[Cell])| Frontier { id, cells: cells.to_vec(), side: CellSide::Unknown, circle: None };
-        (0..).zip(self.iter()).map(frontier).collect()
+        Self::share(&Arc::new(self.clone()))
+    }
+
+    /// Frontiers of unknown cells, which share these lists.
+    pub(super) fn share(shared: &Arc<Self>) -> Vec<Frontier> {
+        let frontier = |(id, i): (u64, usize)| {
+            let cells = Cells::part_of(shared, shared.start(i)..shared.ends[i] as usize);
+            Frontier { id, cells, side: CellSide::Unknown, circle: None }
+        };
+        (0..).zip(0..shared.len()).map(frontier).collect()
     }
 }
 

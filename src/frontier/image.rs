@@ -94,7 +94,7 @@ impl FrontierDetector for ImageDetector {
         let min_cells = self.params.min_cells(info);
         let frontiers = components(&dilated(&points, half), self.params.neighbours).into_iter().map(|component| {
             let circle = circle_of_runs(info, &component);
-            Frontier { id: 0, cells: set_cells(&points, &component), side: CellSide::Either, circle }
+            Frontier { id: 0, cells: set_cells(&points, &component).into(), side: CellSide::Either, circle }
         });
         Ok(order(frontiers.filter(|f| f.cells.len() >= min_cells).collect()))
     }

@@ -96,7 +96,7 @@ proptest! {
         let robot = info.cell(robot.index(info.len()));
         grid.set(robot, 0);
         let found = detect(&grid, robot, params(f64::from(2 * half).min(5.0)));
-        let cells: BTreeSet<Vec<Cell>> = found.iter().map(|f| f.cells.clone()).collect();
+        let cells: BTreeSet<Vec<Cell>> = found.iter().map(|f| f.cells.to_vec()).collect();
         prop_assert_eq!(cells, by_equations(&grid, half));
         for frontier in found {
             let circle = frontier.circle.unwrap();

@@ -18,6 +18,7 @@ use super::tiles::Tiling;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{BitPlane, BitPlanes, Cell, CellRect, GridInfo, Neighbourhood};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The detector, with what it knows of the last map.
 #[derive(Clone, Debug)]
@@ -42,7 +43,7 @@ pub struct Incremental {
     min_cells: Option<usize>,
     clusters: Clusters,
     groups: Regroup,
-    found: FrontierCells,
+    found: Arc<FrontierCells>,
     seeds: Vec<Cell>,
     row: Vec<u64>,
 }
@@ -69,7 +70,7 @@ impl Incremental {
             min_cells: None,
             clusters: Clusters::default(),
             groups: Regroup::default(),
-            found: FrontierCells::default(),
+            found: Arc::default(),
             seeds: Vec::new(),
             row: Vec::new(),
         }
@@ -102,9 +103,17 @@ impl Incremental {
         let min_cells = self.params.min_cells(info);
         let (frontier, neighbours) = (&mut self.frontier, self.params.neighbours);
         let repaired = self.min_cells == Some(min_cells)
-            && self.groups.update(frontier, &self.tiling, &self.regroup, neighbours, min_cells, &mut self.found);
+            && self.groups.update(
+                frontier,
+                &self.tiling,
+                &self.regroup,
+                neighbours,
+                min_cells,
+                Arc::make_mut(&mut self.found),
+            );
         if !repaired {
-            self.clusters.collect(frontier, neighbours, min_cells, &mut self.found);
+            let found = FrontierCells::anew(&mut self.found);
+            self.clusters.collect(frontier, neighbours, min_cells, found);
             self.min_cells = Some(min_cells);
         }
         self.regroup.fill(false);
@@ -252,7 +261,8 @@ impl FrontierDetector for Incremental {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        Ok(self.update(input, None)?.to_frontiers())
+        self.update(input, None)?;
+        Ok(FrontierCells::share(&self.found))
     }
 }
 

@@ -8,7 +8,7 @@
 use super::contacts::{Starts, count_runs, for_each_contact};
 use super::union_find::{make_room, unite};
 use super::window::Window;
-use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_counts};
+use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_instructions};
 
 /// The component of each run of a window, in row-major order. The buffers are kept from
 /// one window to the next.
@@ -26,7 +26,7 @@ impl Labels {
     /// Labels the runs of a window of a plane: components are numbered in the order of
     /// their first cells.
     pub fn label(&mut self, plane: &BitPlane, window: &Window, neighbourhood: Neighbourhood) {
-        with_bit_counts(ConnectRows { labels: self, plane, window, neighbourhood });
+        with_bit_instructions(ConnectRows { labels: self, plane, window, neighbourhood });
         self.number();
     }
 

@@ -3,6 +3,7 @@
 mod bitplane;
 mod bits;
 mod canny;
+mod cells;
 mod clusters;
 mod contacts;
 mod dbscan;
@@ -34,6 +35,7 @@ mod yamauchi;
 
 pub use bitplane::Bitplane;
 pub use canny::{Canny, CannyParams};
+pub use cells::Cells;
 pub use dbscan::{Dbscan, DbscanParams};
 pub use fast::{Fast, FastParams};
 pub use found::FrontierCells;
@@ -69,7 +71,7 @@ pub struct Frontier {
     /// Distinguishes the frontiers of a detection.
     pub id: u64,
     /// The cells in row-major order, at least one.
-    pub cells: Vec<Cell>,
+    pub cells: Cells,
     /// On which side of the boundary they lie.
     pub side: CellSide,
     /// A circle around it in the map frame, from the detectors that measure one.
@@ -237,15 +239,15 @@ impl DetectorKind {
 
 /// Frontiers of these cells, in order.
 pub(crate) fn number(frontiers: Vec<Vec<Cell>>, side: CellSide) -> Vec<Frontier> {
-    order(frontiers.into_iter().map(|cells| Frontier { id: 0, cells, side, circle: None }).collect())
+    let frontier = |mut cells: Vec<Cell>| {
+        cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
+        Frontier { id: 0, cells: cells.into(), side, circle: None }
+    };
+    order(frontiers.into_iter().map(frontier).collect())
 }
 
-/// Orders the cells of each frontier, then the frontiers by their first cell, and
-/// numbers them.
+/// Orders frontiers by their first cell and numbers them.
 pub(crate) fn order(mut frontiers: Vec<Frontier>) -> Vec<Frontier> {
-    for frontier in &mut frontiers {
-        frontier.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
-    }
     frontiers.sort_unstable_by_key(|frontier| frontier.cells.first().map(|cell| (cell.y, cell.x)));
     for (frontier, id) in frontiers.iter_mut().zip(0..) {
         frontier.id = id;

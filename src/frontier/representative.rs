@@ -72,7 +72,7 @@ mod tests {
         let info = GridInfo::new(10, 10, 0.5, Pose::new(3.0, -2.0, 0.8)).unwrap();
         // Along the bottom to a corner and up: the mean, (3.5, 1), is in none of its cells.
         let cells: Vec<Cell> = (0..6).map(|x| Cell::new(x, 0)).chain((1..5).map(|y| Cell::new(5, y))).collect();
-        let frontier = Frontier { id: 0, cells, side: CellSide::Free, circle: None };
+        let frontier = Frontier { id: 0, cells: cells.into(), side: CellSide::Free, circle: None };
         let robot = info.center(Cell::new(9, 4));
         for (representative, x, y) in [
             (Representative::Median, 4.0, 0.0),

@@ -102,7 +102,7 @@ proptest! {
             let frontiers: Vec<Frontier> = stretches
                 .into_iter()
                 .map(|(y, x, count)| level(y, x..x + count))
-                .map(|mut f| { f.cells.retain(|&c| used.insert(c)); f })
+                .map(|f| Frontier { cells: f.cells.iter().copied().filter(|&c| used.insert(c)).collect(), ..f })
                 .filter(|f| !f.cells.is_empty())
                 .collect();
             let Tracked { ids, events, ended } = tracker.update(&frontiers, &info(0.0, 0.0));

@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Cells in a word.
 pub const WORD_CELLS: usize = 64;
 
-/// Work that counts bits much: see [`with_bit_counts`].
+/// Work that counts bits much: see [`with_bit_instructions`].
 pub trait BitWork {
     /// What comes out of it.
     type Output;
@@ -16,11 +16,11 @@ pub trait BitWork {
     fn run(self) -> Self::Output;
 }
 
-/// Does work that counts bits as fast as the processor can.
+/// Does work on bits with all the instructions for it that the processor has.
 #[inline]
-pub fn with_bit_counts<W: BitWork>(work: W) -> W::Output {
+pub fn with_bit_instructions<W: BitWork>(work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
-    return super::simd::with_bit_counts(work);
+    return super::simd::with_bit_instructions(work);
     #[cfg(not(target_arch = "x86_64"))]
     work.run()
 }

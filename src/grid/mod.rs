@@ -22,7 +22,7 @@ mod simd;
 mod state;
 mod vertical;
 
-pub use bitplane::{BitPlane, BitWork, WORD_CELLS, with_bit_counts};
+pub use bitplane::{BitPlane, BitWork, WORD_CELLS, with_bit_instructions};
 pub use bitplanes::BitPlanes;
 pub use classify::Classifier;
 pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, UNKNOWN_COST};

@@ -1,19 +1,21 @@
 //! What the processor has beyond the least of its kind: the one module with unsafe code.
 //!
-//! Packing of cells to bits with AVX2, and code compiled a second time for processors
-//! that count bits in one instruction. In [`pack`], 32 cells are compared in one instruction and the results gathered as the sign bits
-//! of their bytes; the portable version of the same, and the tests of one against the
-//! other, are in [`super::classify`].
+//! Packing of cells to bits with AVX2, and code compiled a second time for processors that
+//! count and find bits in one instruction and work on four words at a time. In [`pack`], 32
+//! cells are compared in one instruction and the results gathered as the sign bits of their
+//! bytes; the portable version of the same, and the tests of one against the other, are in
+//! [`super::classify`].
 
 #![allow(unsafe_code)]
 
+use std::arch::is_x86_feature_detected;
 use std::arch::x86_64::{
     __m256i, _mm256_cmpgt_epi8, _mm256_loadu_si256, _mm256_movemask_epi8, _mm256_or_si256, _mm256_set1_epi8,
 };
 
 /// Whether this processor has what [`pack`] needs.
 pub(super) fn is_available() -> bool {
-    std::arch::is_x86_feature_detected!("avx2")
+    is_x86_feature_detected!("avx2")
 }
 
 /// The free and the unknown cells of each word of 64, as [`super::Thresholds::classify`]
@@ -52,20 +54,25 @@ fn pack_avx2(cells: &[[i8; 64]], free: &mut [u64], unknown: &mut [u64], free_max
     }
 }
 
-/// Runs work that counts bits, compiled for the instructions that do so where the
-/// processor has them.
+/// Runs work on bits, compiled for the instructions that such work likes where the
+/// processor has them all.
 #[inline]
-pub(super) fn with_bit_counts<W: super::BitWork>(work: W) -> W::Output {
-    if std::arch::is_x86_feature_detected!("popcnt") && std::arch::is_x86_feature_detected!("bmi1") {
-        // SAFETY: the processor has both features, as just asked, which is all that the
+pub(super) fn with_bit_instructions<W: super::BitWork>(work: W) -> W::Output {
+    let has = is_x86_feature_detected!("avx2")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+        && is_x86_feature_detected!("popcnt");
+    if has {
+        // SAFETY: the processor has the five features, as just asked, which is all that the
         // function needs.
-        unsafe { counting_in_hardware(work) }
+        unsafe { in_hardware(work) }
     } else {
         work.run()
     }
 }
 
-#[target_feature(enable = "popcnt,bmi1")]
-fn counting_in_hardware<W: super::BitWork>(work: W) -> W::Output {
+#[target_feature(enable = "avx2,bmi1,bmi2,lzcnt,popcnt")]
+fn in_hardware<W: super::BitWork>(work: W) -> W::Output {
     work.run()
 }
