@@ -20,7 +20,7 @@ use super::pocket::Pocket;
 use super::shifts::neighbours_of_row;
 use super::window::Window;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
-use crate::grid::{BitPlane, BitPlanes, Cell, Neighbourhood};
+use crate::grid::{BitPlane, BitPlanes, BitWork, Cell, Neighbourhood, with_bit_instructions};
 use std::sync::Arc;
 
 /// The detector, with the buffers it keeps between maps.
@@ -99,10 +99,7 @@ impl Bitplane {
         let (free, unknown) = planes.both_mut();
         connected_to(seed, free, Neighbourhood::Four, entered, flood, labels);
         row.resize(unknown.row_words(), 0);
-        for y in 0..unknown.height() {
-            neighbours_of_row(entered, params.neighbours, y, 0..unknown.row_words(), row);
-            intersect(unknown.row_mut(y), row);
-        }
+        with_bit_instructions(KeepBeside { plane: unknown, source: entered, neighbours: params.neighbours, row });
     }
 
     /// Frontier cells by the paper's line 27: the search walks over all that has a free
@@ -118,6 +115,30 @@ impl Bitplane {
         // The free cells have served, and what is walked over takes their place.
         connected_to(seed, entered, params.neighbours, free, flood, labels);
         unknown.intersect(free);
+    }
+}
+
+/// Keeps the cells of a plane that have a neighbour in another of its size.
+struct KeepBeside<'a> {
+    plane: &'a mut BitPlane,
+    source: &'a BitPlane,
+    neighbours: Neighbourhood,
+    /// Room for a row.
+    row: &'a mut [u64],
+}
+
+impl BitWork for KeepBeside<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { plane, source, neighbours, row } = self;
+        for y in 0..plane.height() {
+            neighbours_of_row(source, neighbours, y, 0..row.len(), row);
+            for (word, beside) in plane.row_mut(y).iter_mut().zip(&*row) {
+                *word &= beside;
+            }
+        }
     }
 }
 
@@ -146,13 +167,6 @@ impl FrontierDetector for Bitplane {
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
         self.detect_cells(input)?;
         Ok(FrontierCells::share(&self.found))
-    }
-}
-
-/// Keeps the bits of `row` that are set in `other` too.
-pub(super) fn intersect(row: &mut [u64], other: &[u64]) {
-    for (word, other) in row.iter_mut().zip(other) {
-        *word &= other;
     }
 }
 

@@ -62,16 +62,18 @@ impl FrontierCells {
 
     /// Drops the frontiers that are not kept, and puts others among the rest in the order of
     /// first cells. In place: what lies before the first that is dropped or new stays there.
-    pub(super) fn replace(&mut self, is_kept: impl Fn(&[Cell]) -> bool, fresh: &Self) {
+    pub(super) fn replace<'a, F>(&mut self, is_kept: impl Fn(&[Cell]) -> bool, fresh: F)
+    where
+        F: DoubleEndedIterator<Item = &'a [Cell]> + ExactSizeIterator + Clone,
+    {
         self.keep(is_kept);
         let (mut kept, mut new) = (self.len(), fresh.len());
         let mut kept_end = self.cells.len();
-        self.cells.resize(kept_end + fresh.cells.len(), Cell::new(0, 0));
+        self.cells.resize(kept_end + fresh.clone().map(<[Cell]>::len).sum::<usize>(), Cell::new(0, 0));
         self.ends.resize(kept + new, 0);
         // From the last on, so that nothing is written over what has still to be moved.
         let mut place = self.cells.len();
-        while new > 0 {
-            let cells = fresh.frontier(new - 1);
+        for cells in fresh.rev() {
             let before = self.count_before(kept, cells);
             let moved = self.start(before)..kept_end;
             let by = place - kept_end;
@@ -210,7 +212,8 @@ mod tests {
                 found((0..).zip(&kinds).filter(|(_, kind)| wanted.contains(kind)).map(|(column, _)| column))
             };
             let mut list = of_kinds(&[0, 1]);
-            list.replace(|cells| kinds[cells[0].x as usize] == 0, &of_kinds(&[2]));
+            let fresh = of_kinds(&[2]);
+            list.replace(|cells| kinds[cells[0].x as usize] == 0, fresh.iter().collect::<Vec<_>>().into_iter());
             let expected = of_kinds(&[0, 2]);
             prop_assert_eq!((list.cells, list.ends), (expected.cells, expected.ends));
         }

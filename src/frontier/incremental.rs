@@ -15,8 +15,9 @@ use super::reach::{Changed, Reach};
 use super::regroup::Regroup;
 use super::shifts::neighbours_of_row;
 use super::tiles::Tiling;
+use super::window::Window;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
-use crate::grid::{BitPlane, BitPlanes, Cell, CellRect, GridInfo, Neighbourhood};
+use crate::grid::{BitPlane, BitPlanes, BitWork, Cell, CellRect, GridInfo, Neighbourhood, with_bit_instructions};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -228,30 +229,55 @@ impl Incremental {
 
     /// Finds again the frontier cells of the tiles that are stale.
     fn find_frontier_cells(&mut self) {
-        let reached = self.reach.plane();
+        let beside = match self.params.reachability {
+            Reachability::Textbook => None,
+            Reachability::WallsBlock => Some(self.params.neighbours),
+        };
         for tile in 0..self.tiling.len() {
-            if !std::mem::take(&mut self.stale[tile]) {
-                continue;
-            }
-            let window = self.tiling.window(tile);
-            let mut differs = false;
-            for y in window.rows.clone() {
+            if std::mem::take(&mut self.stale[tile]) {
+                let window = self.tiling.window(tile);
+                let (reached, unknown) = (self.reach.plane(), self.planes.unknown());
                 let row = &mut self.row[window.words.clone()];
-                match self.params.reachability {
-                    Reachability::Textbook => row.copy_from_slice(window.row(reached, y)),
-                    Reachability::WallsBlock => {
-                        neighbours_of_row(reached, self.params.neighbours, y, window.words.clone(), row);
-                    }
-                }
-                let frontier = &mut self.frontier.row_mut(y)[window.words.clone()];
-                for ((row, unknown), frontier) in row.iter().zip(window.row(self.planes.unknown(), y)).zip(frontier) {
-                    let new = row & unknown;
-                    differs |= *frontier != new;
-                    *frontier = new;
-                }
+                let frontier = &mut self.frontier;
+                self.regroup[tile] |=
+                    with_bit_instructions(FindCells { reached, unknown, beside, window, row, frontier });
             }
-            self.regroup[tile] |= differs;
         }
+    }
+}
+
+/// Finds the frontier cells of a window: the unknown ones that are reached, or beside what
+/// is. Whether they are others than before.
+struct FindCells<'a> {
+    reached: &'a BitPlane,
+    unknown: &'a BitPlane,
+    beside: Option<Neighbourhood>,
+    window: Window,
+    /// Room for a row of the window.
+    row: &'a mut [u64],
+    frontier: &'a mut BitPlane,
+}
+
+impl BitWork for FindCells<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let Self { reached, unknown, beside, window, row, frontier } = self;
+        let mut differ = 0;
+        for y in window.rows.clone() {
+            match beside {
+                Some(neighbours) => neighbours_of_row(reached, neighbours, y, window.words.clone(), row),
+                None => row.copy_from_slice(window.row(reached, y)),
+            }
+            let known = &mut frontier.row_mut(y)[window.words.clone()];
+            for ((row, unknown), known) in row.iter().zip(window.row(unknown, y)).zip(known) {
+                let found = row & unknown;
+                differ |= *known ^ found;
+                *known = found;
+            }
+        }
+        differ != 0
     }
 }
 

@@ -26,23 +26,35 @@ impl Joins {
 
     /// The pairs of a list.
     pub fn list(&self, index: usize) -> &[Pair] {
-        let start = if index > 0 { self.ends[index - 1] } else { 0 };
-        &self.pairs[start as usize..self.ends[index] as usize]
+        &self.pairs[self.start(index) as usize..self.ends[index] as usize]
     }
 
-    /// Makes some lists anew: `fresh` gets the place of each list in turn and appends its
-    /// pairs, or returns `false` for one that is to stay.
-    pub fn rebuild(&mut self, mut fresh: impl FnMut(usize, &mut Vec<Pair>) -> bool) {
+    /// Makes some lists anew: `append` appends the pairs of each list for which `is_stale`
+    /// holds, in turn; all others stay.
+    pub fn rebuild(&mut self, is_stale: impl Fn(usize) -> bool, mut append: impl FnMut(usize, &mut Vec<Pair>)) {
         let (mut pairs, mut ends) = std::mem::take(&mut self.next);
         pairs.clear();
         ends.clear();
-        for index in 0..self.ends.len() {
-            if !fresh(index, &mut pairs) {
-                pairs.extend_from_slice(self.list(index));
+        let mut next = 0;
+        while next < self.ends.len() {
+            // Lists that stay are copied together.
+            let stay = next..(next..self.ends.len()).find(|&index| is_stale(index)).unwrap_or(self.ends.len());
+            let (start, end) = (self.start(stay.start), self.start(stay.end));
+            let shift = (pairs.len() as u32).wrapping_sub(start);
+            ends.extend(self.ends[stay.clone()].iter().map(|end| end.wrapping_add(shift)));
+            pairs.extend_from_slice(&self.pairs[start as usize..end as usize]);
+            if stay.end < self.ends.len() {
+                append(stay.end, &mut pairs);
+                ends.push(pairs.len() as u32);
             }
-            ends.push(pairs.len() as u32);
+            next = stay.end + 1;
         }
         self.next = (std::mem::replace(&mut self.pairs, pairs), std::mem::replace(&mut self.ends, ends));
+    }
+
+    /// Where a list starts, or the last ends.
+    fn start(&self, index: usize) -> u32 {
+        if index > 0 { self.ends[index - 1] } else { 0 }
     }
 
     /// What the lists take in memory, bytes.
@@ -60,15 +72,10 @@ mod tests {
     fn lists_are_made_anew_or_stay() {
         let mut joins = Joins::default();
         joins.reset(3);
-        joins.rebuild(|index, pairs| {
-            pairs.extend((0..index as u16).map(|node| [node, 7]));
-            true
-        });
+        let count_up = |index: usize, pairs: &mut Vec<Pair>| pairs.extend((0..index as u16).map(|node| [node, 7]));
+        joins.rebuild(|_| true, count_up);
         assert_eq!([joins.list(0).len(), joins.list(1).len(), joins.list(2).len()], [0, 1, 2]);
-        joins.rebuild(|index, pairs| {
-            pairs.extend((index == 1).then_some([5, 6]));
-            index == 1
-        });
+        joins.rebuild(|index| index == 1, |_, pairs| pairs.push([5, 6]));
         assert_eq!((joins.list(1), joins.list(2)), (&[[5, 6]][..], &[[0, 7], [1, 7]][..]));
     }
 }

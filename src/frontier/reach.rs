@@ -1,35 +1,15 @@
 //! What is connected to a seed in a plane that changes here and there.
 
+mod labelled;
+mod written;
+
 use super::joins::Joins;
-use super::labels::Labels;
-use super::tiles::{Tile, Tiling, node_of};
+use super::tiles::{Tile, Tiling};
 use super::union_find::{root_of, unite};
 use crate::grid::{BitPlane, Cell, Neighbourhood};
-
-/// Where in a tile other cells are reached than before.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Changed {
-    /// Anywhere.
-    pub any: bool,
-    /// In its lowest row.
-    pub below: bool,
-    /// In its highest row.
-    pub above: bool,
-    /// In its first column.
-    pub left: bool,
-    /// In its last column.
-    pub right: bool,
-}
-
-impl Changed {
-    /// Whether cells of a tile so many columns and rows on lie beside one that changed, as
-    /// far as can be told from the sides.
-    pub const fn touches(self, (columns, rows): (isize, isize)) -> bool {
-        self.any
-            && (columns == 0 || if columns > 0 { self.right } else { self.left })
-            && (rows == 0 || if rows > 0 { self.above } else { self.below })
-    }
-}
+use labelled::LabelledTiles;
+pub(super) use written::Changed;
+use written::Written;
 
 /// The connections of a plane and what of it is reached.
 #[derive(Clone, Debug)]
@@ -54,8 +34,7 @@ pub(super) struct Reach {
     /// The index of each tile's first node in `written`.
     first_written: Vec<u32>,
     plane: BitPlane,
-    labels: Labels,
-    nodes: Vec<u16>,
+    labelled: LabelledTiles,
     /// Components within a rim that hold a seed.
     inner: Vec<(usize, u32)>,
 }
@@ -77,8 +56,7 @@ impl Reach {
             written: Vec::new(),
             first_written: Vec::new(),
             plane: BitPlane::default(),
-            labels: Labels::default(),
-            nodes: Vec::new(),
+            labelled: LabelledTiles::default(),
             inner: Vec::new(),
         }
     }
@@ -94,6 +72,7 @@ impl Reach {
         self.tiling = Tiling::new(self.plane.row_words(), height);
         let count = self.tiling.len();
         self.tiles.resize_with(count, Tile::default);
+        self.labelled.reset(&self.tiling);
         self.node_counts.resize(count, 0);
         self.joins.reset(2 * count);
         self.dirty.clear();
@@ -114,6 +93,7 @@ impl Reach {
     /// was but for the words touched. Tells of each tile where in it other cells are
     /// reached than before.
     pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut [Changed]) {
+        self.labelled.forget(&self.dirty);
         self.label_rims(plane);
         self.join_tiles(plane);
         self.connect();
@@ -135,9 +115,7 @@ impl Reach {
     fn label_rims(&mut self, plane: &BitPlane) {
         for tile in 0..self.tiles.len() {
             if self.dirty[tile] {
-                let window = self.tiling.window(tile);
-                self.labels.label(plane, &window, self.neighbourhood);
-                self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
+                self.labelled.of((tile, &mut self.tiles[tile]), plane, &self.tiling, self.neighbourhood);
                 self.node_counts[tile] = self.tiles[tile].nodes;
             }
         }
@@ -149,19 +127,21 @@ impl Reach {
         if !dirty.contains(&true) {
             return;
         }
-        joins.rebuild(|list, pairs| {
+        let columns = tiling.columns();
+        // At the end of a row that may be one too many.
+        let is_stale = |list: usize| {
+            let beside = list / 2 + if list % 2 == 1 { columns } else { 1 };
+            dirty[list / 2] || dirty.get(beside) == Some(&true)
+        };
+        joins.rebuild(is_stale, |list, pairs| {
             let (tile, is_above) = (list / 2, list % 2 == 1);
-            let offset = if is_above { (0, 1) } else { (1, 0) };
-            let Some(other) = tiling.beside(tile, offset).filter(|&other| dirty[tile] || dirty[other]) else {
-                return false;
-            };
+            let Some(other) = tiling.beside(tile, if is_above { (0, 1) } else { (1, 0) }) else { return };
             if is_above {
                 let windows = [&tiling.window(tile), &tiling.window(other)];
                 tiles[tile].join_above(&tiles[other], plane, windows, *neighbourhood, pairs);
             } else {
                 tiles[tile].join_right(&tiles[other], *neighbourhood, pairs);
             }
-            true
         });
     }
 
@@ -209,11 +189,10 @@ impl Reach {
         self.reached.resize(self.parents.len(), false);
         for &seed in seeds.iter().filter(|&&seed| plane.contains(seed)) {
             let tile = self.tiling.at(seed.y as usize, seed.x as usize / crate::grid::WORD_CELLS);
-            let window = self.tiling.window(tile);
-            self.labels.label(plane, &window, self.neighbourhood);
-            self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
-            let Some(component) = self.labels.component_at(plane, &window, seed) else { continue };
-            match node_of(&self.nodes, component) {
+            let labelled = self.labelled.of((tile, &mut self.tiles[tile]), plane, &self.tiling, self.neighbourhood);
+            let component = labelled.labels.component_at(plane, &self.tiling.window(tile), seed);
+            let Some(component) = component else { continue };
+            match labelled.node_of(component) {
                 None => self.inner.push((tile, component)),
                 Some(node) => {
                     let root = root_of(&mut self.parents, self.first_node[tile] + u32::from(node));
@@ -230,28 +209,27 @@ impl Reach {
     /// Writes the reached cells of a tile.
     fn write(&mut self, plane: &BitPlane, tile: usize) -> Changed {
         let window = self.tiling.window(tile);
-        self.labels.label(plane, &window, self.neighbourhood);
-        self.tiles[tile].read_rim(plane, &window, &self.labels, &mut self.nodes);
-        let Self { labels, nodes, reached, first_node, inner, plane: target, .. } = self;
-        let first = first_node[tile] as usize;
-        let is_kept = |component: u32| match node_of(nodes, component) {
-            Some(node) => reached[first + usize::from(node)],
-            None => inner.contains(&(tile, component)),
-        };
-        let mut changed = Changed::default();
-        labels.select(plane, &window, is_kept, |y, i, word| {
-            let target = &mut target.row_mut(y)[i];
-            let differs = *target ^ word;
-            *target = word;
-            if differs != 0 {
-                changed.any = true;
-                changed.below |= y == window.rows.start;
-                changed.above |= y + 1 == window.rows.end;
-                changed.left |= i == window.words.start && differs & 1 != 0;
-                changed.right |= i + 1 == window.words.end && differs >> 63 != 0;
+        let first = self.first_node[tile] as usize;
+        let reached = &self.reached[first..first + usize::from(self.node_counts[tile])];
+        let mut written = Written { changed: Changed::default(), window: &window, plane: &mut self.plane };
+        let is_seeded = self.inner.iter().any(|&(of, _)| of == tile);
+        if !self.tiles[tile].has_islands && !is_seeded && (!reached.contains(&true) || !reached.contains(&false)) {
+            // All or nothing: no need to know which cell is whose.
+            let all = if reached.contains(&true) { u64::MAX } else { 0 };
+            for y in window.rows.clone() {
+                for (i, &word) in window.words.clone().zip(window.row(plane, y)) {
+                    written.put(y, i, word & all);
+                }
             }
-        });
-        changed
+            return written.changed;
+        }
+        let labelled = self.labelled.of((tile, &mut self.tiles[tile]), plane, &self.tiling, self.neighbourhood);
+        let is_kept = |component: u32| match labelled.node_of(component) {
+            Some(node) => reached[usize::from(node)],
+            None => self.inner.contains(&(tile, component)),
+        };
+        labelled.labels.select(plane, &window, is_kept, |y, i, word| written.put(y, i, word));
+        written.changed
     }
 
     /// What all this takes in memory, bytes.
@@ -259,7 +237,7 @@ impl Reach {
         let nodes = (self.parents.capacity() + self.first_node.capacity() + self.first_written.capacity()) * 4;
         let flags = self.dirty.capacity() + self.has_inner.capacity();
         self.plane.memory_bytes()
-            + self.labels.memory_bytes()
+            + self.labelled.memory_bytes()
             + self.tiles.capacity() * size_of::<Tile>()
             + self.tiles.iter().map(Tile::memory_bytes).sum::<usize>()
             + self.node_counts.capacity() * size_of::<u16>()
@@ -268,7 +246,6 @@ impl Reach {
             + flags
             + self.reached.capacity()
             + self.written.capacity()
-            + self.nodes.capacity() * size_of::<u16>()
             + self.inner.capacity() * size_of::<(usize, u32)>()
     }
 }

@@ -1,6 +1,7 @@
 //! What is reached through tiles against a labelling of the whole plane.
 
 use super::*;
+use crate::frontier::labels::Labels;
 use crate::frontier::window::Window;
 use proptest::prelude::*;
 

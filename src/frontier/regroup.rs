@@ -1,7 +1,6 @@
 //! The frontiers of a plane of which some tiles changed.
 
 use super::found::FrontierCells;
-use super::group::Grouper;
 use super::tiles::Tiling;
 use super::window::Window;
 use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
@@ -15,9 +14,10 @@ const MIN_CELLS: usize = 1024;
 /// Repairs lists of frontiers, with the buffers it keeps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Regroup {
-    grouper: Grouper,
+    /// The cells taken out of the plane, those of one frontier after those of another.
     cells: Vec<Cell>,
-    fresh: FrontierCells,
+    /// Which of them each frontier has.
+    frontiers: Vec<[u32; 2]>,
 }
 
 impl Regroup {
@@ -35,11 +35,11 @@ impl Regroup {
     ) -> bool {
         let most_cells = plane.words().len() / WORDS_PER_CELL + MIN_CELLS;
         self.cells.clear();
+        self.frontiers.clear();
         let tiles = ChangedTiles::new(tiling, changed);
         let done = self.take_touched(plane, &tiles, neighbourhood, found, most_cells).is_some();
         if done {
-            self.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
-            self.grouper.group(&self.cells, neighbourhood, min_cells, &mut self.fresh);
+            self.order(min_cells);
             // Kept are those whose cells are still in the plane: all that have no cell within
             // or beside the rows that changed.
             let is_far = |cells: &[Cell]| match cells {
@@ -47,7 +47,8 @@ impl Regroup {
                 _ => false,
             };
             let is_kept = |cells: &[Cell]| is_far(cells) || cells.first().is_some_and(|&cell| plane.contains(cell));
-            found.replace(is_kept, &self.fresh);
+            let cells_of = |&[start, end]: &[u32; 2]| &self.cells[start as usize..end as usize];
+            found.replace(is_kept, self.frontiers.iter().map(cells_of));
         }
         for &cell in &self.cells {
             plane.insert(cell);
@@ -90,7 +91,19 @@ impl Regroup {
         Some(())
     }
 
-    /// Takes a cell that is still set out of the plane, and all that are connected to it.
+    /// Drops the frontiers with fewer cells, and orders the others and their cells.
+    fn order(&mut self, min_cells: usize) {
+        let Self { cells, frontiers } = self;
+        let row_major = |cell: &Cell| (cell.y, cell.x);
+        frontiers.retain(|&[start, end]| (end - start) as usize >= min_cells);
+        for &[start, end] in &*frontiers {
+            cells[start as usize..end as usize].sort_unstable_by_key(row_major);
+        }
+        frontiers.sort_unstable_by_key(|&[start, _]| row_major(&cells[start as usize]));
+    }
+
+    /// Takes a cell that is still set out of the plane, and all that are connected to it: a
+    /// frontier.
     fn take(
         &mut self,
         plane: &mut BitPlane,
@@ -101,23 +114,28 @@ impl Regroup {
         if !plane.remove(cell) {
             return Some(());
         }
-        let mut next = self.cells.len();
+        let start = self.cells.len();
+        let mut next = start;
         self.cells.push(cell);
         while let Some(&cell) = self.cells.get(next) {
             next += 1;
-            for &offset in neighbourhood.offsets() {
-                let beside = cell.offset(offset);
-                if plane.remove(beside) {
-                    self.cells.push(beside);
+            for beside in [-1, 0, 1].map(|y| cell.offset((0, y))) {
+                let set = match neighbourhood {
+                    Neighbourhood::Four if beside != cell => [false, plane.remove(beside), false],
+                    _ => plane.remove_three(beside),
+                };
+                for x in (-1..=1).zip(set).filter_map(|(x, set)| set.then_some(x)) {
+                    self.cells.push(beside.offset((x, 0)));
                 }
             }
         }
-        (self.cells.len() <= most_cells).then_some(())
+        self.frontiers.push([start as u32, next as u32]);
+        (next <= most_cells).then_some(())
     }
 
     /// What the buffers take in memory, bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Cell>() + self.grouper.memory_bytes() + self.fresh.memory_bytes()
+        self.cells.capacity() * size_of::<Cell>() + self.frontiers.capacity() * size_of::<[u32; 2]>()
     }
 }
 

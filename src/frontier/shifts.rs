@@ -1,10 +1,12 @@
 //! Neighbours by shifts: which cells lie beside those of a plane.
 
-use crate::grid::{BitPlane, BitWork, Neighbourhood, with_bit_instructions};
+use crate::grid::{BitPlane, Neighbourhood};
 use std::ops::Range;
 
 /// Writes into `target` the words `words` of row `y`: the cells that have a neighbour in
-/// `source`, whatever they are themselves.
+/// `source`, whatever they are themselves. Four words at a time where the work it is part of
+/// is compiled for that: see [`crate::grid::with_bit_instructions`].
+#[inline(always)]
 pub(super) fn neighbours_of_row(
     source: &BitPlane,
     neighbourhood: Neighbourhood,
@@ -13,54 +15,30 @@ pub(super) fn neighbours_of_row(
     target: &mut [u64],
 ) {
     let row = source.row(y);
-    let below = (y > 0).then(|| source.row(y - 1));
-    let above = (y + 1 < source.height()).then(|| source.row(y + 1));
+    let below = if y > 0 { Some(source.row(y - 1)) } else { None };
+    let above = if y + 1 < source.height() { Some(source.row(y + 1)) } else { None };
     // At the rim the one row stands for both; where there is none, nothing of them counts.
-    let beside = [below.or(above), above.or(below)].map(|beside| beside.unwrap_or(row));
+    let [below, above] = [below.or(above).unwrap_or(row), above.or(below).unwrap_or(row)];
     let counts = if source.height() > 1 { u64::MAX } else { 0 };
     let corners = if neighbourhood == Neighbourhood::Eight { u64::MAX } else { 0 };
-    with_bit_instructions(Neighbours { row, beside, counts, corners, words: words.clone(), target });
-    if words.end == row.len()
-        && let Some(last) = target.get_mut(words.len() - 1)
-    {
-        *last &= source.last_word_mask();
+    // The first and the last word of a row have nothing on one side.
+    let last = row.len() - 1;
+    for i in [0, last] {
+        if words.contains(&i) {
+            let mask = if i == last { source.last_word_mask() } else { u64::MAX };
+            let here = neighbours([around(row, i), around(below, i), around(above, i)], counts, corners);
+            target[i - words.start] = here & mask;
+        }
     }
-}
-
-/// The work of it, four words at a time where nothing stands in the way.
-struct Neighbours<'a> {
-    row: &'a [u64],
-    beside: [&'a [u64]; 2],
-    /// Which cells of the rows beside this one count.
-    counts: u64,
-    /// Which of them do for the columns to the left and right.
-    corners: u64,
-    words: Range<usize>,
-    target: &'a mut [u64],
-}
-
-impl BitWork for Neighbours<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { row, beside: [below, above], counts, corners, words, target } = self;
-        // The first and the last word of a row have nothing on one side.
-        let inner = words.start.max(1)..words.end.min(row.len() - 1).max(1);
-        for i in [0, row.len() - 1].into_iter().filter(|i| words.contains(i)) {
-            target[i - words.start] = neighbours([around(row, i), around(below, i), around(above, i)], counts, corners);
-        }
-        if inner.is_empty() {
-            return;
-        }
-        let threes = inner.start - 1..=inner.end;
-        let [row, below, above] = [&row[threes.clone()], &below[threes.clone()], &above[threes]];
-        let beside = below.windows(3).zip(above.windows(3));
-        for (target, (row, (below, above))) in
-            target[inner.start - words.start..].iter_mut().zip(row.windows(3).zip(beside))
-        {
-            *target = neighbours([three(row), three(below), three(above)], counts, corners);
-        }
+    let inner = words.start.max(1)..words.end.min(last);
+    if inner.start >= inner.end {
+        return;
+    }
+    let with_sides = inner.start - 1..inner.end + 1;
+    let beside = below[with_sides.clone()].windows(3).zip(above[with_sides.clone()].windows(3));
+    let target = target[inner.start - words.start..].iter_mut();
+    for (target, (row, (below, above))) in target.zip(row[with_sides].windows(3).zip(beside)) {
+        *target = neighbours([three(row), three(below), three(above)], counts, corners);
     }
 }
 

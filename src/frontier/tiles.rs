@@ -17,7 +17,7 @@ const TILE_WORDS: usize = 4;
 /// Rows of a tile.
 const TILE_ROWS: usize = 64;
 /// No node: the cell is not set, or its component does not touch the rim.
-const NONE: u16 = u16::MAX;
+pub(super) const NONE: u16 = u16::MAX;
 
 /// How a plane is cut.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -37,6 +37,11 @@ impl Tiling {
     /// Number of tiles.
     pub const fn len(&self) -> usize {
         self.columns * self.rows
+    }
+
+    /// Number of tiles in a row of them.
+    pub const fn columns(&self) -> usize {
+        self.columns
     }
 
     /// The tile of a word of a row.
@@ -98,6 +103,8 @@ pub(super) struct LaterNeighbours {
 pub(super) struct Tile {
     /// Number of nodes.
     pub nodes: u16,
+    /// Whether there are components that do not touch the rim.
+    pub has_islands: bool,
     /// The node of each run of the lowest row.
     lowest: Vec<u16>,
     /// The node of each run of the highest row.
@@ -136,6 +143,7 @@ impl Tile {
             self.left.push(first.map_or(NONE, |&component| node(component)));
             self.right.push(last.map_or(NONE, |&component| node(component)));
         }
+        self.has_islands = labels.components() > usize::from(self.nodes);
     }
 
     /// Appends which nodes touch those of the tile to the right.
@@ -193,9 +201,4 @@ fn push_new(pairs: &mut Vec<Pair>, begin: usize, pair: Pair) {
 fn joined(a: Option<&u16>, b: Option<&u16>) -> Option<Pair> {
     let (&a, &b) = (a?, b?);
     (a != NONE && b != NONE).then_some([a, b])
-}
-
-/// The node of a component that touches the rim.
-pub(super) fn node_of(nodes: &[u16], component: u32) -> Option<u16> {
-    nodes.get(component as usize).copied().filter(|&node| node != NONE)
 }
