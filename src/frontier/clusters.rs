@@ -11,7 +11,7 @@ mod sizes;
 
 use super::contacts::for_each_band_contact;
 use super::found::FrontierCells;
-use super::union_find::{make_room, unite};
+use super::union_find::{UniteRuns, make_room};
 use crate::grid::{BitPlane, BitWork, Neighbourhood, WORD_CELLS, with_bit_instructions};
 use list::{List, Piece};
 use sizes::{Count, number};
@@ -23,8 +23,6 @@ pub(super) struct Clusters {
     /// are connected; then the first; then the number of the component, where 0 stands for
     /// all that are dropped.
     of_run: Vec<u32>,
-    /// Of each component by its number, how many cells it has; then where the next goes.
-    places: Vec<u32>,
     /// The words of a row that have cells.
     pieces: Vec<Piece>,
     /// A row without a cell, beyond the last.
@@ -68,21 +66,21 @@ impl Clusters {
         min_cells: usize,
         found: &mut FrontierCells,
     ) {
-        let Self { of_run, places, pieces, none } = self;
+        let Self { of_run, pieces, none } = self;
         none.resize(plane.row_words(), 0);
         pieces.resize(plane.row_words() + 2, Piece::default());
         let bands = Bands { plane, none, eight: neighbourhood == Neighbourhood::Eight };
         with_bit_instructions(Connect { of_run, bands });
         with_bit_instructions(Count { of_run, bands });
-        let total = number(of_run, min_cells, places);
-        let (cells, ends) = found.prepare(total as usize, places.len() - 1, plane.width());
-        with_bit_instructions(List { of_run, places, pieces, bands, cells, ends });
+        let total = number(of_run, min_cells, found.notes());
+        let room = found.prepare(total as usize, plane.width());
+        with_bit_instructions(List { of_run, pieces, bands, room });
         found.finish(total as usize);
     }
 
     /// What the buffers take in memory, bytes.
     pub fn memory_bytes(&self) -> usize {
-        (self.of_run.capacity() + self.places.capacity()) * size_of::<u32>()
+        self.of_run.capacity() * size_of::<u32>()
             + self.pieces.capacity() * size_of::<Piece>()
             + self.none.capacity() * size_of::<u64>()
     }
@@ -111,9 +109,8 @@ impl BitWork for Connect<'_> {
             let nearest = if bands.eight { below[1] } else { below[0] };
             let words = rows[0].iter().zip(rows[1]).zip(below[0].iter().zip(below[1]).zip(nearest));
             let words = words.map(|((a, b), ((c, d), &near))| [(a | b, *a), (c | d, near)]);
-            let count = for_each_band_contact(words, bands.eight, |run, below_run| {
-                unite(of_run, first + run, below_first + below_run);
-            });
+            let unite = UniteRuns { parents: of_run, first, other_first: below_first };
+            let count = for_each_band_contact(words, bands.eight, unite);
             (below, below_first, first) = (rows, first, first + count);
         }
         of_run.truncate(first as usize);

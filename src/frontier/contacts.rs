@@ -29,11 +29,25 @@ pub(super) fn count_runs(row: &[u64]) -> u32 {
     row.iter().map(|&word| starts.of(word).count_ones()).sum()
 }
 
+/// Who wants to know which runs touch: a closure, or a type of its own where the call has to
+/// be compiled into the work that it is part of.
+pub(super) trait Meet {
+    /// Takes the places of two runs that touch, each in its row.
+    fn meet(&mut self, run: u32, above_run: u32);
+}
+
+impl<F: FnMut(u32, u32)> Meet for F {
+    #[inline(always)]
+    fn meet(&mut self, run: u32, above_run: u32) {
+        self(run, above_run);
+    }
+}
+
 /// Calls `visit` with the places of two runs in their rows, that of `row` first, for each
 /// pair that touches. With `eight`, corners touch. Rows are as long as each other, or
 /// `above` is empty. The number of runs of `row`.
 #[inline(always)]
-pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, visit: impl FnMut(u32, u32)) -> u32 {
+pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, visit: impl Meet) -> u32 {
     if above.is_empty() {
         return count_runs(row);
     }
@@ -48,7 +62,7 @@ pub(super) fn for_each_contact(row: &[u64], above: &[u64], eight: bool, visit: i
 pub(super) fn for_each_band_contact(
     words: impl Iterator<Item = [(u64, u64); 2]>,
     eight: bool,
-    mut visit: impl FnMut(u32, u32),
+    mut visit: impl Meet,
 ) -> u32 {
     // The last columns of the words before, and the last cells of the rows between.
     let (mut last, mut over_last) = ((0, 0), (0, 0));
@@ -83,7 +97,7 @@ pub(super) fn for_each_band_contact(
             while contacts != 0 {
                 let so_far = (contacts ^ (contacts - 1)) & mask;
                 let run = before + (begun & so_far).count_ones() - 1;
-                visit(run, above_before + (above_begun & so_far).count_ones() + next - 1);
+                visit.meet(run, above_before + (above_begun & so_far).count_ones() + next - 1);
                 contacts &= contacts - 1;
             }
         }

@@ -15,6 +15,16 @@ pub struct FrontierCells {
     ends: Vec<u32>,
 }
 
+/// Where cells are put in place.
+pub(super) struct Room<'a> {
+    /// The cells of all frontiers, and some more.
+    pub cells: &'a mut [Cell],
+    /// What is known of each frontier.
+    pub notes: &'a mut [u32],
+    /// Where the cells of each frontier end.
+    pub ends: &'a mut [u32],
+}
+
 impl FrontierCells {
     /// One frontier alone.
     pub(super) fn of_one(cells: Vec<Cell>) -> Self {
@@ -138,17 +148,26 @@ impl FrontierCells {
         &self.cells[self.start(index)..self.ends[index] as usize]
     }
 
-    /// Makes room for so many cells and frontiers, and for some cells more that serve as one
-    /// pleases.
-    pub(super) fn prepare(&mut self, cells: usize, frontiers: usize, more: usize) -> (&mut [Cell], &mut [u32]) {
-        self.cells.resize(cells + more, Cell::new(0, 0));
-        self.ends.resize(frontiers, 0);
-        (&mut self.cells, &mut self.ends)
+    /// A list for what is known of each frontier while their cells are put in place; it takes
+    /// the room of the ends.
+    pub(super) fn notes(&mut self) -> &mut Vec<u32> {
+        &mut self.ends
     }
 
-    /// Drops the cells that serve no longer.
+    /// Makes room for so many cells, and some more that serve as one pleases, and for the ends
+    /// of all frontiers but the first that there are notes of.
+    pub(super) fn prepare(&mut self, cells: usize, more: usize) -> Room<'_> {
+        let notes = self.ends.len();
+        self.cells.resize(cells + more, Cell::new(0, 0));
+        self.ends.resize(2 * notes - 1, 0);
+        let (notes, ends) = self.ends.split_at_mut(notes);
+        Room { cells: &mut self.cells, notes, ends }
+    }
+
+    /// Drops the cells beyond so many and the notes.
     pub(super) fn finish(&mut self, cells: usize) {
         self.cells.truncate(cells);
+        self.ends.drain(..=self.ends.len() / 2);
     }
 
     /// Puts a cell in its place.

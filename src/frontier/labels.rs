@@ -6,7 +6,7 @@
 //! Ackermann function.
 
 use super::contacts::{Starts, count_runs, for_each_contact};
-use super::union_find::{make_room, unite};
+use super::union_find::{UniteRuns, make_room};
 use super::window::Window;
 use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_instructions};
 
@@ -132,9 +132,8 @@ impl BitWork for ConnectRows<'_> {
             // There may be a run for every other cell.
             make_room(of_run, first, most_in_row, 8);
             let row = window.row(plane, y);
-            let count = for_each_contact(row, above, eight, |run, above_run| {
-                unite(of_run, first + run, above_first + above_run);
-            });
+            let unite = UniteRuns { parents: of_run, first, other_first: above_first };
+            let count = for_each_contact(row, above, eight, unite);
             (above, above_first, first) = (row, first, first + count);
         }
         row_first.push(first);

@@ -7,7 +7,7 @@ use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
 use std::ops::Range;
 
 /// To find a cell's frontier again costs about as much as to label so many words.
-const WORDS_PER_CELL: usize = 8;
+const WORDS_PER_CELL: usize = 16;
 /// So many cells are found again in any case.
 const MIN_CELLS: usize = 1024;
 

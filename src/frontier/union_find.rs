@@ -1,6 +1,8 @@
 //! Union-find over indices whose root is always the smallest, with path halving (Tarjan
 //! and van Leeuwen, JACM 1984). A parent is never greater than its child.
 
+use super::contacts::Meet;
+
 /// Makes room for `most` members from `first` on, more than a row can have: each is its own
 /// parent at first. The buffer grows by one part in `share` at the least, which is less greedy
 /// than doubling.
@@ -13,6 +15,23 @@ pub(super) fn make_room(parents: &mut Vec<u32>, first: u32, most: u32, share: us
             parents.reserve_exact((more as usize).max(parents.len() / share));
         }
         parents.extend(known..known + more);
+    }
+}
+
+/// Unites runs that touch: the members from two places on are the runs of two rows.
+pub(super) struct UniteRuns<'a> {
+    /// The parents of all runs.
+    pub parents: &'a mut [u32],
+    /// The first run of a row.
+    pub first: u32,
+    /// The first run of the row that it touches.
+    pub other_first: u32,
+}
+
+impl Meet for UniteRuns<'_> {
+    #[inline(always)]
+    fn meet(&mut self, run: u32, other_run: u32) {
+        unite(self.parents, self.first + run, self.other_first + other_run);
     }
 }
 

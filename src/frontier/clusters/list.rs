@@ -1,6 +1,7 @@
 //! The cells of components in lists.
 
 use super::super::contacts::Starts;
+use super::super::found::Room;
 use super::Bands;
 use crate::grid::{BitWork, Cell, WORD_CELLS};
 
@@ -24,16 +25,13 @@ pub(super) struct Piece {
 pub(super) struct List<'a> {
     /// The component of each run.
     pub of_run: &'a [u32],
-    /// What the components know: see [`UNPLACED`].
-    pub places: &'a mut [u32],
     /// Room for the words of a row and two more.
     pub pieces: &'a mut [Piece],
     pub bands: Bands<'a>,
-    /// The cells of what is kept, and room for a row of those that are dropped: to write
-    /// them is faster than to ask for each.
-    pub cells: &'a mut [Cell],
-    /// Where the cells of each component end, in the order of their first cells.
-    pub ends: &'a mut [u32],
+    /// For the cells of what is kept, and a row of those that are dropped: to write them is
+    /// faster than to ask for each. Of each component it is noted how many cells it has
+    /// ([`UNPLACED`]), then where the next goes.
+    pub room: Room<'a>,
 }
 
 impl BitWork for List<'_> {
@@ -41,9 +39,9 @@ impl BitWork for List<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { of_run, places, pieces, bands, cells, ends } = self;
+        let Self { of_run, pieces, bands, room: Room { cells, notes: places, ends } } = self;
         let dropped = (cells.len() - bands.plane.width()) as u32;
-        let (mut known, mut next) = (0, 0);
+        let mut places_given = Given { next: 0, ends: ends.iter_mut() };
         let mut first_run = 0;
         for band in 0..bands.count() {
             let rows = bands.band(band);
@@ -62,11 +60,7 @@ impl BitWork for List<'_> {
                     let run = piece.run_before.wrapping_add((piece.begun & up_to).count_ones());
                     let place = &mut places[of_run[run as usize] as usize];
                     if *place & UNPLACED != 0 {
-                        let size = *place & !UNPLACED;
-                        *place = next;
-                        next += size;
-                        ends[known] = next;
-                        known += 1;
+                        *place = places_given.give(*place & !UNPLACED);
                     }
                     let x = piece.column + left.trailing_zeros();
                     cells[*place as usize] = Cell::new(x as i32, y as i32);
@@ -79,6 +73,28 @@ impl BitWork for List<'_> {
             }
             first_run = runs;
         }
+    }
+}
+
+/// The places that are given to components.
+struct Given<'a> {
+    /// The next cell without an owner.
+    next: u32,
+    /// Where the ends of those to come are written.
+    ends: std::slice::IterMut<'a, u32>,
+}
+
+impl Given<'_> {
+    /// Gives a component room for its cells; where it begins. Seldom done beside what is
+    /// done for each cell, and so not among it.
+    #[cold]
+    fn give(&mut self, cells: u32) -> u32 {
+        let place = self.next;
+        self.next += cells;
+        if let Some(end) = self.ends.next() {
+            *end = self.next;
+        }
+        place
     }
 }
 
