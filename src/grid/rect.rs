@@ -5,7 +5,7 @@ use std::ops::Range;
 
 /// The part of a grid that a `map_msgs/OccupancyGridUpdate` covers: from column `x` and
 /// row `y`, `width` columns and `height` rows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CellRect {
     /// The first column.
     pub x: usize,
@@ -50,6 +50,13 @@ impl CellRect {
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.width == 0 || self.height == 0
+    }
+
+    /// Its columns within a grid.
+    #[must_use]
+    pub fn columns(&self, info: &GridInfo) -> Range<usize> {
+        let end = self.x.saturating_add(self.width).min(info.width());
+        self.x.min(end)..end
     }
 
     /// Its rows within a grid.

@@ -56,7 +56,7 @@ impl MapBuilder {
     /// # Errors
     /// Never for a map that grew without one.
     pub fn map(&self) -> Result<Option<OccupancyGrid>, MapperError> {
-        self.mapper.as_ref().map(Mapper::publish).transpose()
+        self.mapper.as_ref().map(Mapper::map).transpose()
     }
 
     /// Takes a scan in and tells where the robot was in the map. `robot_in_odom` is what

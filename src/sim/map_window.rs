@@ -5,7 +5,7 @@
 //! window turns them into indices.
 
 use crate::geometry::{Point, Pose};
-use crate::grid::{GridInfo, GridInfoError};
+use crate::grid::{CellRect, GridInfo, GridInfoError};
 
 /// A rectangle of lattice cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +56,16 @@ impl MapWindow {
         let (column, row) = (x - self.first.0, y - self.first.1);
         let inside = column >= 0 && row >= 0 && column < i64::from(self.width) && row < i64::from(self.height);
         inside.then(|| row as usize * self.width as usize + column as usize)
+    }
+
+    /// The cells from `low` to `high`, which must be in the window.
+    pub(super) const fn rect(&self, low: (i64, i64), high: (i64, i64)) -> CellRect {
+        CellRect {
+            x: (low.0 - self.first.0) as usize,
+            y: (low.1 - self.first.1) as usize,
+            width: (high.0 - low.0 + 1) as usize,
+            height: (high.1 - low.1 + 1) as usize,
+        }
     }
 
     /// The window as the place of a grid.

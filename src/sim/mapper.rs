@@ -11,11 +11,13 @@
 //! cannot be told which cell is beyond marks none. Noise-free scans therefore never
 //! mark a cell wrongly where the map's lattice is the world's.
 
+mod publish;
+
 use super::map_window::MapWindow;
 use super::ray::{Ray, Walk};
-use super::{MapStyle, MapperConfig, SimConfigError};
+use super::{MapperConfig, SimConfigError};
 use crate::geometry::{Point, Pose};
-use crate::grid::{GridInfoError, OccupancyGrid};
+use crate::grid::{CellRect, GridInfoError, OccupancyGrid};
 use crate::scan::{LaserScan, Reading};
 
 /// Why a scan cannot be put into the map.
@@ -65,6 +67,9 @@ pub struct Mapper {
     known_cells: usize,
     /// Even; a scan marks what it passes with this and what it hits with this + 1.
     mark: u32,
+    /// The map last published, and where it may differ from what is known now.
+    published: Option<OccupancyGrid>,
+    touched: CellRect,
 }
 
 impl Mapper {
@@ -78,7 +83,7 @@ impl Mapper {
         config.validate()?;
         let window = MapWindow::around(start, config.initial_reach_m, anchor, config.resolution_m)?;
         let cells = vec![UNSEEN; window.len()];
-        Ok(Self { config, window, cells, known_cells: 0, mark: 0 })
+        Ok(Self { config, window, cells, known_cells: 0, mark: 0, published: None, touched: CellRect::default() })
     }
 
     /// Takes a scan into the map, taken with the lidar at `lidar_pose`.
@@ -117,34 +122,6 @@ impl Mapper {
         self.known_cells as f64 * self.window.resolution_m() * self.window.resolution_m()
     }
 
-    /// The map as it would be published now.
-    ///
-    /// # Errors
-    /// Never for a map that was made and grown without one.
-    pub fn publish(&self) -> Result<OccupancyGrid, MapperError> {
-        let info = self.window.info()?;
-        let mut grid = OccupancyGrid::filled(info, OccupancyGrid::UNKNOWN);
-        match self.config.style {
-            MapStyle::Gmapping => {
-                let (occupied, free) = (OccupancyGrid::OCCUPIED, OccupancyGrid::FREE);
-                self.write(&mut grid, |log_odds| if log_odds > 0.0 { occupied } else { free });
-            }
-            MapStyle::Cartographer => {
-                self.write(&mut grid, |log_odds| (100.0 / (1.0 + (-log_odds).exp())).round() as i8);
-            }
-        }
-        Ok(grid)
-    }
-
-    /// Writes the values of the cells seen. A map is published every second: for a simple
-    /// value this is arithmetic on many cells at a time.
-    #[inline(always)]
-    fn write(&self, grid: &mut OccupancyGrid, value: impl Fn(f32) -> i8) {
-        for (slot, cell) in grid.data_mut().iter_mut().zip(&self.cells) {
-            *slot = if cell.mark == 0 { OccupancyGrid::UNKNOWN } else { value(cell.log_odds) };
-        }
-    }
-
     fn beams(&self, lidar_pose: &Pose, scan: &LaserScan) -> Vec<Option<Beam>> {
         let start = self.window.to_lattice(lidar_pose.position());
         let resolution_m = self.window.resolution_m();
@@ -155,7 +132,9 @@ impl Mapper {
                 Reading::None => return None,
             };
             let (sin, cos) = (lidar_pose.yaw + angle_rad).sin_cos();
-            Some(Beam { ray: Ray::new(start, (cos, sin)), length: range_m / resolution_m, hit })
+            let (ray, length) = (Ray::new(start, (cos, sin)), range_m / resolution_m);
+            // Of a ray along a border nobody can tell which cells it passes and hits.
+            (!ray.follows_border(length, ROUNDING)).then_some(Beam { ray, length, hit })
         };
         scan.readings().map(beam).collect()
     }
@@ -172,11 +151,13 @@ impl Mapper {
         // The cell that is hit may be the one beyond the end.
         let cell = |(x, y): (f64, f64), by: f64| ((x + by).floor() as i64, (y + by).floor() as i64);
         let chunk = (self.config.growth_m / self.config.resolution_m).ceil() as i64;
-        let grown = self.window.grown_to(cell(low, -1.0), cell(high, 1.0), chunk)?;
+        let (low, high) = (cell(low, -1.0), cell(high, 1.0));
+        let grown = self.window.grown_to(low, high, chunk)?;
         if grown != self.window {
             self.cells = self.window.copy_into(&self.cells, &grown, UNSEEN);
             self.window = grown;
         }
+        self.touched = self.touched.union(self.window.rect(low, high));
         Ok(())
     }
 

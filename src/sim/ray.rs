@@ -60,6 +60,14 @@ impl Ray {
         (self.start[0] + self.direction[0] * distance, self.start[1] + self.direction[1] * distance)
     }
 
+    /// Whether it stays within a tolerance, in cells, of a border between columns or between
+    /// rows for a length.
+    pub(super) fn follows_border(&self, length: f64, tolerance: f64) -> bool {
+        let near_border = |x: f64| (x - floor(x + tolerance)).abs() <= tolerance;
+        let mut axes = self.direction.iter().zip(&self.start);
+        axes.any(|(direction, &start)| (direction * length).abs() <= tolerance && near_border(start))
+    }
+
     /// 1 or -1: the next column, the next row.
     pub(super) fn steps(&self) -> (isize, isize) {
         (self.step[0] as isize, self.step[1] as isize)
@@ -109,6 +117,14 @@ mod tests {
     use super::*;
     use crate::grid::{Cell, Traversal};
     use proptest::prelude::*;
+
+    #[test]
+    fn a_border_is_followed_by_rays_on_it_alone() {
+        let follows = |start, yaw: f64| Ray::new(start, (yaw.cos(), yaw.sin())).follows_border(40.0, 1e-9);
+        let (up, along) = (std::f64::consts::FRAC_PI_2, 0.0);
+        assert!(follows((3.0, 0.5), up) && follows((3.0 - 1e-12, 0.5), -up) && follows((0.5, -2.0 + 1e-12), along));
+        assert!(!follows((3.0, 0.5), along) && !follows((3.0, 0.5), up + 1e-6) && !follows((3.5, 2.0), up));
+    }
 
     proptest! {
         #[test]
