@@ -7,9 +7,9 @@ use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
 use std::ops::Range;
 
 /// To find a cell's frontier again costs about as much as to label so many words.
-const WORDS_PER_CELL: usize = 16;
+const WORDS_PER_CELL: usize = 8;
 /// So many cells are found again in any case.
-const MIN_CELLS: usize = 1024;
+const MIN_CELLS: usize = 16;
 
 /// Repairs lists of frontiers, with the buffers it keeps.
 #[derive(Clone, Debug, Default)]
