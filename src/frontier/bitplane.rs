@@ -143,7 +143,7 @@ impl BitWork for KeepBeside<'_> {
 }
 
 /// Finds the cells of `open` that are connected to a seed among them.
-fn connected_to(
+pub(super) fn connected_to(
     seed: Cell,
     open: &BitPlane,
     neighbourhood: Neighbourhood,

@@ -2,6 +2,8 @@
 //! open, what is beside it, and what is connected. O(cells / 64 + runs) after the grid
 //! has been packed.
 
+use super::bitplane::connected_to;
+use super::flood::Flood;
 use super::labels::Labels;
 use super::runs::{Run, runs_of};
 use super::shifts::neighbours_of_row;
@@ -26,14 +28,15 @@ impl Territory {
         let seed = params.seed(input.grid, &input.robot_in_map)?;
         let mut planes = BitPlanes::default();
         planes.pack(input.grid, &params.thresholds);
-        let mut open = planes.free().clone();
-        if params.reachability == Reachability::WallsBlock {
-            let (mut labels, all) = (Labels::default(), Window::of(&open));
-            labels.label(planes.free(), &all, Neighbourhood::Four);
-            let kept = labels.component_at(planes.free(), &all, seed);
-            let is_kept = |component| Some(component) == kept;
-            labels.select(planes.free(), &all, is_kept, |y, i, word| open.row_mut(y)[i] = word);
-        }
+        let open = match params.reachability {
+            Reachability::Textbook => planes.free().clone(),
+            Reachability::WallsBlock => {
+                let mut open = BitPlane::default();
+                let (mut flood, mut labels) = (Flood::default(), Labels::default());
+                connected_to(seed, planes.free(), Neighbourhood::Four, &mut open, &mut flood, &mut labels);
+                open
+            }
+        };
         Ok(Self { planes, open })
     }
 

@@ -104,7 +104,7 @@ impl Reach {
             let written = self.first_written[tile] as usize..self.first_written[tile + 1] as usize;
             let same = self.reached[nodes] == self.written[written];
             let is_same = same && !(self.dirty[tile] || inner || self.has_inner[tile]);
-            *changed = if is_same { Changed::default() } else { self.write(plane, tile) };
+            *changed = if is_same { Changed::default() } else { self.write(plane, tile, inner) };
             self.has_inner[tile] = inner;
         }
         self.dirty.fill(false);
@@ -206,14 +206,13 @@ impl Reach {
         }
     }
 
-    /// Writes the reached cells of a tile.
-    fn write(&mut self, plane: &BitPlane, tile: usize) -> Changed {
+    /// Writes the reached cells of a tile, which has a seed within its rim or not.
+    fn write(&mut self, plane: &BitPlane, tile: usize, is_seeded: bool) -> Changed {
         let window = self.tiling.window(tile);
-        let first = self.first_node[tile] as usize;
-        let reached = &self.reached[first..first + usize::from(self.node_counts[tile])];
+        let reached = &self.reached[self.first_node[tile] as usize..self.first_node[tile + 1] as usize];
         let mut written = Written { changed: Changed::default(), window: &window, plane: &mut self.plane };
-        let is_seeded = self.inner.iter().any(|&(of, _)| of == tile);
-        if !self.tiles[tile].has_islands && !is_seeded && (!reached.contains(&true) || !reached.contains(&false)) {
+        let is_mixed = reached.contains(&true) && reached.contains(&false);
+        if !(self.tiles[tile].has_islands || is_seeded || is_mixed) {
             // All or nothing: no need to know which cell is whose.
             let all = if reached.contains(&true) { u64::MAX } else { 0 };
             for y in window.rows.clone() {

@@ -6,7 +6,7 @@ use std::ops::Range;
 /// Cells in a word.
 pub const WORD_CELLS: usize = 64;
 
-/// Work that counts bits much: see [`with_bit_instructions`].
+/// Work on many bits: see [`with_bit_instructions`].
 pub trait BitWork {
     /// What comes out of it.
     type Output;

@@ -69,8 +69,7 @@ impl CellRect {
     /// The words of a bit plane's rows that hold its columns within a grid.
     #[must_use]
     pub fn words(&self, info: &GridInfo) -> Range<usize> {
-        let end = self.x.saturating_add(self.width).min(info.width());
-        let start = self.x.min(end);
+        let Range { start, end } = self.columns(info);
         if start == end { 0..0 } else { start / WORD_CELLS..end.div_ceil(WORD_CELLS) }
     }
 }

@@ -19,6 +19,7 @@ use super::{MapperConfig, SimConfigError};
 use crate::geometry::{Point, Pose};
 use crate::grid::{CellRect, GridInfoError, OccupancyGrid};
 use crate::scan::{LaserScan, Reading};
+use std::sync::Arc;
 
 /// Why a scan cannot be put into the map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -68,7 +69,7 @@ pub struct Mapper {
     /// Even; a scan marks what it passes with this and what it hits with this + 1.
     mark: u32,
     /// The map last published, and where it may differ from what is known now.
-    published: Option<OccupancyGrid>,
+    published: Option<Arc<OccupancyGrid>>,
     touched: CellRect,
 }
 
@@ -96,8 +97,12 @@ impl Mapper {
             let Pose { x, y, yaw } = *lidar_pose;
             return Err(MapperError::PoseNotFinite { x, y, yaw });
         }
-        let beams = self.beams(lidar_pose, scan);
+        let mut beams = self.beams(lidar_pose, scan);
         self.make_room(&beams)?;
+        // Of a ray along a border nobody can tell which cells it passes and hits.
+        for beam in &mut beams {
+            beam.take_if(|beam| beam.ray.follows_border(beam.length, ROUNDING));
+        }
         self.mark += 2;
         for beam in beams.iter().flatten().filter(|beam| beam.hit) {
             self.hit(beam);
@@ -132,9 +137,7 @@ impl Mapper {
                 Reading::None => return None,
             };
             let (sin, cos) = (lidar_pose.yaw + angle_rad).sin_cos();
-            let (ray, length) = (Ray::new(start, (cos, sin)), range_m / resolution_m);
-            // Of a ray along a border nobody can tell which cells it passes and hits.
-            (!ray.follows_border(length, ROUNDING)).then_some(Beam { ray, length, hit })
+            Some(Beam { ray: Ray::new(start, (cos, sin)), length: range_m / resolution_m, hit })
         };
         scan.readings().map(beam).collect()
     }

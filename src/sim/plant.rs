@@ -111,7 +111,7 @@ impl Plant {
         filter.accepts(&lidar_pose, 0.0, &config.mapper);
         let grid = mapper.publish()?;
         let costmap = Costmap::inflate(&grid, &config.thresholds, &inflation);
-        let published = Published { stamp_s: 0.0, grid: Arc::new(grid), costmap: Arc::new(costmap) };
+        let published = Published { stamp_s: 0.0, grid, costmap: Arc::new(costmap) };
         let mut coverage = Coverage::new(&target);
         coverage.update(&published.grid);
         let mut this = Self {
@@ -260,10 +260,10 @@ impl Plant {
             let grid = self.mapper.publish()?;
             self.published.stamp_s = stamp_s;
             // On known ground nothing changes for long, and inflating takes its time.
-            if grid != *self.published.grid {
+            if grid != self.published.grid {
                 let Published { grid: old, costmap, .. } = &self.published;
                 let costmap = costmap.reinflate(old, &grid, &self.config.thresholds, &self.inflation);
-                self.published = Published { stamp_s, grid: Arc::new(grid), costmap: Arc::new(costmap) };
+                self.published = Published { stamp_s, grid, costmap: Arc::new(costmap) };
                 self.coverage.update(&self.published.grid);
             }
         }

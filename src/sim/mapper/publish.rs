@@ -3,6 +3,7 @@
 use super::{Mapper, MapperError};
 use crate::grid::{CellRect, OccupancyGrid};
 use crate::sim::MapStyle;
+use std::sync::Arc;
 
 impl Mapper {
     /// The map as it is known now.
@@ -17,21 +18,21 @@ impl Mapper {
     }
 
     /// The same from the map that was published last. O(cells around the scans since then),
-    /// and a copy.
+    /// and a copy if somebody still has that map.
     ///
     /// # Errors
     /// As [`Self::map`].
-    pub fn publish(&mut self) -> Result<OccupancyGrid, MapperError> {
+    pub fn publish(&mut self) -> Result<Arc<OccupancyGrid>, MapperError> {
         let info = self.window.info()?;
         let touched = std::mem::take(&mut self.touched);
         let grid = match self.published.take() {
             Some(mut grid) if *grid.info() == info => {
-                self.write(&mut grid, &touched);
+                self.write(Arc::make_mut(&mut grid), &touched);
                 grid
             }
-            _ => self.map()?,
+            _ => Arc::new(self.map()?),
         };
-        self.published = Some(grid.clone());
+        self.published = Some(Arc::clone(&grid));
         Ok(grid)
     }
 

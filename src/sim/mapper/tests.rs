@@ -67,7 +67,7 @@ proptest! {
             mapper.integrate(&pose, &lidar.sweep(&world, &pose, 0.0)).unwrap();
         }
         let map = mapper.publish().unwrap();
-        prop_assert_eq!(&map, &mapper.map().unwrap());
+        prop_assert_eq!(&*map, &mapper.map().unwrap());
         let cells = compared(&map, &truth);
         prop_assert_eq!(cells.len(), mapper.known_cells());
         for (value, expected) in cells {
@@ -204,6 +204,6 @@ fn a_pose_nowhere_and_an_endless_ray_are_errors_and_change_nothing() {
     let mut mapper = at_origin(MapStyle::Gmapping);
     let scan = LaserScan { range_max_m: 1e9, ranges_m: vec![f32::INFINITY], ..LaserScan::default() };
     assert!(matches!(mapper.integrate(&Pose::new(f64::NAN, 0.0, 0.0), &scan), Err(MapperError::PoseNotFinite { .. })));
-    assert!(matches!(mapper.integrate(&Pose::new(0.05, 0.05, 0.0), &scan), Err(MapperError::TooLarge(_))));
+    assert!(matches!(mapper.integrate(&Pose::default(), &scan), Err(MapperError::TooLarge(_))));
     assert_eq!(mapper.known_cells(), 0);
 }
