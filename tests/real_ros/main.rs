@@ -152,7 +152,7 @@ fn tools(stage: &Stage) {
     let marker = stage.output("timeout 20 rostopic echo -n 1 /explore/frontiers");
     assert!(marker.contains("ns: \"frontiers\""), "{marker}");
     let look_up = source("tests/real_ros/look_up.py");
-    let tf = stage.output(&format!("timeout 20 /usr/bin/python3 {} map base_scan", look_up.display()));
+    let tf = stage.output(&format!("timeout 40 /usr/bin/python3 {} map base_scan", look_up.display()));
     assert!(tf.contains("translation"), "{tf}");
     assert!(stage.output("rosservice call /explore/save_map").contains("success: True"));
     assert_eq!(stage.output("rosparam get /explore/map_file").trim(), stage.folder.join("map").to_string_lossy());
