@@ -1,5 +1,4 @@
-//! What a detector takes once it has seen a map: no allocation, and a byte a cell but in
-//! noise.
+//! What a detector takes once it has seen a map: no allocation, and a byte a cell at most.
 
 #![allow(clippy::unwrap_used)]
 
@@ -70,7 +69,7 @@ fn nothing_is_allocated_in_the_steady_state() {
 }
 
 #[test]
-fn the_state_is_a_byte_a_cell_and_little_more_in_noise() {
+fn the_state_is_a_byte_a_cell_at_most() {
     for (scene, changed) in maps() {
         let inputs = [&scene.grid, &changed].map(|grid| DetectionInput::new(grid, scene.robot));
         for params in all_params() {
@@ -81,22 +80,10 @@ fn the_state_is_a_byte_a_cell_and_little_more_in_noise() {
                 kept.update(input, None).unwrap();
             }
             let cells = scene.grid.data().len();
-            let most = cells as f64 * most_bytes_per_cell(scene.name, &params);
             for bytes in [bitplane.memory_bytes(), kept.memory_bytes()] {
-                assert!(bytes as f64 <= most, "{} {params:?}: {bytes} bytes, at most {most}", scene.name);
+                assert!(bytes <= cells, "{} {params:?}: {bytes} bytes for {cells} cells", scene.name);
             }
         }
-    }
-}
-
-/// What noise takes where clusters have a run for every few cells and four bytes for each:
-/// docs/performance.md. All else takes a byte at most.
-fn most_bytes_per_cell(scene: &str, params: &DetectorParams) -> f64 {
-    match (scene, params.reachability, params.neighbours) {
-        ("shut-in", Reachability::Textbook, _) => 1.6,
-        ("noise", Reachability::Textbook, _) | ("noise", _, Neighbourhood::Four) => 1.25,
-        ("noise", ..) => 1.1,
-        _ => 1.0,
     }
 }
 

@@ -1,9 +1,10 @@
 //! Where the runs of one row touch those of the row above it, by expressions of bits.
 //!
 //! A run is known by how many of its row begin before it, which is a count of bits. Two
-//! runs that overlap have one first cell in common; two that meet at a corner alone do so
-//! at the beginning of one or at its end. So each pair of runs that touch is met exactly
-//! once, and there is a branch for each such pair and no other.
+//! runs that overlap have one first column in common; of two that meet at a corner alone,
+//! one begins in the column after the end of the other. So each pair of runs that touch is
+//! met exactly once, in a column up to which both have begun, and there is a branch for each
+//! such pair and no other.
 
 /// Finds where runs begin, word by word along a row.
 #[derive(Clone, Copy, Debug, Default)]
@@ -76,30 +77,18 @@ pub(super) fn for_each_band_contact(
         }
         let begun = band & !(band << 1 | last.0);
         let above_begun = over_band & !(over_band << 1 | over_last.0);
-        let both = cells & over;
-        // Where two runs overlap.
-        let mut contacts = both & !(both << 1 | last.1 & over_last.1);
-        // Where one ends left of the beginning of another, which is the next above: within
-        // the word, and from the word before to this one.
-        let (mut next_contacts, mut contact_at_seam) = (0, 0);
+        let (cells_before, over_before) = (cells << 1 | last.1, over << 1 | over_last.1);
+        // Where two runs begin to overlap.
+        let mut contacts = cells & over & !(cells_before & over_before);
         if eight {
-            // Where one begins right of the end of another, the last begun above.
-            contacts |= cells & !(cells << 1 | last.1) & (over << 1 | over_last.1) & !over;
-            let to_the_right = cells & !(cells >> 1) & (over >> 1) & !over;
-            // In a band the other may have begun already, in another row.
-            contacts |= to_the_right & over_band;
-            next_contacts = to_the_right & !over_band;
-            contact_at_seam = last.1 & !cells & over & !over_last.1 & 1;
+            // Where one begins right after the end of the other.
+            contacts |= (cells ^ over) & (cells ^ cells_before) & (over ^ over_before);
         }
-        for (mut contacts, mask, next) in
-            [(contacts, u64::MAX, 0), (next_contacts, u64::MAX, 1), (contact_at_seam, 0, 1 - over_last.0 as u32)]
-        {
-            while contacts != 0 {
-                let so_far = (contacts ^ (contacts - 1)) & mask;
-                let run = before + (begun & so_far).count_ones() - 1;
-                visit.meet(run, above_before + (above_begun & so_far).count_ones() + next - 1);
-                contacts &= contacts - 1;
-            }
+        while contacts != 0 {
+            let so_far = contacts ^ (contacts - 1);
+            let run = before + (begun & so_far).count_ones() - 1;
+            visit.meet(run, above_before + (above_begun & so_far).count_ones() - 1);
+            contacts &= contacts - 1;
         }
         before += begun.count_ones();
         above_before += above_begun.count_ones();

@@ -4,6 +4,7 @@ use super::super::contacts::Starts;
 use super::super::found::Room;
 use super::Bands;
 use crate::grid::{BitWork, Cell, WORD_CELLS};
+use std::ops::Range;
 
 /// Of a component: what stands with it is the number of its cells, as none has a place yet.
 pub(super) const UNPLACED: u32 = 1 << 31;
@@ -20,30 +21,32 @@ pub(super) struct Piece {
     column: u32,
 }
 
-/// Puts all cells in their places, in row-major order; a component gets its place with its
-/// first cell.
-pub(super) struct List<'a> {
+/// Puts all cells of a strip in their places, in row-major order; a component gets its place
+/// with its first cell.
+pub(super) struct List<'a, 'b> {
     /// The component of each run.
     pub of_run: &'a [u32],
     /// Room for the words of a row and two more.
     pub pieces: &'a mut [Piece],
     pub bands: Bands<'a>,
+    /// The bands that the runs are of.
+    pub strip: Range<usize>,
+    pub given: &'a mut Given,
     /// For the cells of what is kept, and a row of those that are dropped: to write them is
     /// faster than to ask for each. Of each component it is noted how many cells it has
     /// ([`UNPLACED`]), then where the next goes.
-    pub room: Room<'a>,
+    pub room: &'a mut Room<'b>,
 }
 
-impl BitWork for List<'_> {
+impl BitWork for List<'_, '_> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Self { of_run, pieces, bands, room: Room { cells, notes: places, ends } } = self;
+        let Self { of_run, pieces, bands, strip, given, room: Room { cells, notes: places, ends } } = self;
         let dropped = (cells.len() - bands.plane.width()) as u32;
-        let mut places_given = Given { next: 0, ends: ends.iter_mut() };
         let mut first_run = 0;
-        for band in 0..bands.count() {
+        for band in strip {
             let rows = bands.band(band);
             let mut runs = 0;
             for (y, row) in (bands.rows() * band..).zip(rows).take(bands.rows()) {
@@ -60,7 +63,7 @@ impl BitWork for List<'_> {
                     let run = piece.run_before.wrapping_add((piece.begun & up_to).count_ones());
                     let place = &mut places[of_run[run as usize] as usize];
                     if *place & UNPLACED != 0 {
-                        *place = places_given.give(*place & !UNPLACED);
+                        *place = given.give(*place & !UNPLACED, ends);
                     }
                     let x = piece.column + left.trailing_zeros();
                     cells[*place as usize] = Cell::new(x as i32, y as i32);
@@ -76,24 +79,26 @@ impl BitWork for List<'_> {
     }
 }
 
-/// The places that are given to components.
-struct Given<'a> {
+/// Where the next component goes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Given {
+    /// How many have a place.
+    components: usize,
     /// The next cell without an owner.
     next: u32,
-    /// Where the ends of those to come are written.
-    ends: std::slice::IterMut<'a, u32>,
 }
 
-impl Given<'_> {
+impl Given {
     /// Gives a component room for its cells; where it begins. Seldom done beside what is
     /// done for each cell, and so not among it.
     #[cold]
-    fn give(&mut self, cells: u32) -> u32 {
+    fn give(&mut self, cells: u32, ends: &mut [u32]) -> u32 {
         let place = self.next;
         self.next += cells;
-        if let Some(end) = self.ends.next() {
+        if let Some(end) = ends.get_mut(self.components) {
             *end = self.next;
         }
+        self.components += 1;
         place
     }
 }

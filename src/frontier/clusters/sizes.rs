@@ -3,15 +3,21 @@
 use super::Bands;
 use super::list::UNPLACED;
 use crate::grid::BitWork;
+use std::ops::Range;
 
 /// Of a run: it is the first of its component, and what stands with it is the number of
 /// the component's cells.
-const FIRST: u32 = 1 << 31;
+pub(super) const FIRST: u32 = 1 << 31;
+/// Of a first run: its component goes on in another strip, and what stands with it is which
+/// of those that do it is.
+pub(super) const CROSSING: u32 = 1 << 30;
 
 /// Replaces parents by the first runs, and writes to those the numbers of cells.
 pub(super) struct Count<'a> {
     pub of_run: &'a mut [u32],
     pub bands: Bands<'a>,
+    /// The bands that the runs are of.
+    pub strip: Range<usize>,
 }
 
 impl BitWork for Count<'_> {
@@ -19,7 +25,7 @@ impl BitWork for Count<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { of_run, bands } = self;
+        let Self { of_run, bands, strip } = self;
         // Parents come first, and so know their own first run already.
         for run in 0..of_run.len() {
             let parent = of_run[run];
@@ -27,7 +33,7 @@ impl BitWork for Count<'_> {
             of_run[run] = if parent as usize == run { FIRST } else { first };
         }
         let mut next = 0;
-        for band in 0..bands.count() {
+        for band in strip {
             let [a, b] = bands.band(band);
             let mut last = 0;
             for (&a, &b) in a.iter().zip(b) {
@@ -50,29 +56,59 @@ impl BitWork for Count<'_> {
 /// The first run of the component of a run with this entry and place. There is no branch,
 /// as nobody can guess which run is a first.
 #[inline(always)]
-const fn first_of(entry: u32, place: u32) -> u32 {
+pub(super) const fn first_of(entry: u32, place: u32) -> u32 {
     let is_first = (entry.cast_signed() >> 31).cast_unsigned();
     place & is_first | entry & !is_first
 }
 
-/// Replaces first runs by the numbers of components, from 1 on for those with so many cells
-/// at least, and writes the numbers of their cells. How many cells they have together.
-pub(super) fn number(of_run: &mut [u32], min_cells: usize, sizes: &mut Vec<u32>) -> u32 {
-    sizes.clear();
-    sizes.push(0);
-    let mut total = 0;
+/// Components that are kept.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Kept {
+    /// How many.
+    pub components: usize,
+    /// How many cells they have together.
+    pub cells: usize,
+}
+
+impl Kept {
+    /// Adds those of a strip that have so many cells at least and do not cross its borders.
+    pub fn add(&mut self, of_run: &[u32], min_cells: usize) {
+        let (mut components, mut cells) = (0, 0);
+        for &entry in of_run {
+            let size = entry & !FIRST;
+            let is_kept = entry & FIRST != 0 && size & CROSSING == 0 && size as usize >= min_cells;
+            components += usize::from(is_kept);
+            cells += if is_kept { size as usize } else { 0 };
+        }
+        self.components += components;
+        self.cells += cells;
+    }
+}
+
+/// Replaces first runs by the numbers of components, and writes the numbers of their cells to
+/// `notes`: from `next` on for those with so many cells at least that do not cross the
+/// strip's borders; `crossing` has the numbers of the others. The next number.
+pub(super) fn number(
+    of_run: &mut [u32],
+    min_cells: usize,
+    crossing: &[u32],
+    notes: &mut [u32],
+    mut next: usize,
+) -> usize {
     for run in 0..of_run.len() {
         let entry = of_run[run];
         let size = entry & !FIRST;
         of_run[run] = if entry & FIRST == 0 {
             of_run[entry as usize]
+        } else if size & CROSSING != 0 {
+            crossing[(size & !CROSSING) as usize]
         } else if size as usize >= min_cells {
-            sizes.push(UNPLACED | size);
-            total += size;
-            sizes.len() as u32 - 1
+            notes[next] = UNPLACED | size;
+            next += 1;
+            next as u32 - 1
         } else {
             0
         };
     }
-    total
+    next
 }
