@@ -9,36 +9,12 @@
 //! On maps of buildings each row is visited a few times. A spiral or a maze can take as
 //! many sweeps as it has turns: after so many visits the fill gives up.
 
+use super::spans::Span;
 use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_instructions};
+use std::ops::Range;
 
 /// Visits and looks at rows, in rows of the plane, after which to label runs is cheaper.
 const MOST_STEPS_PER_ROW: usize = 48;
-
-/// The words from one to before another.
-#[derive(Clone, Copy, Debug)]
-struct Span {
-    start: usize,
-    end: usize,
-}
-
-impl Span {
-    const NONE: Self = Self { start: usize::MAX, end: 0 };
-
-    const fn is_empty(self) -> bool {
-        self.start >= self.end
-    }
-
-    fn join(&mut self, other: Self) {
-        *self = Self { start: self.start.min(other.start), end: self.end.max(other.end) };
-    }
-
-    /// With some words more of a row of so many, so that there are four and four: work done
-    /// on four at a time has fewer left over.
-    const fn in_fours(self, row_words: usize) -> Self {
-        let end = self.end.next_multiple_of(4);
-        Self { start: self.start / 4 * 4, end: if end < row_words { end } else { row_words } }
-    }
-}
 
 /// The work of a fill from a seed that is reached.
 struct Sweeps<'a> {
@@ -112,12 +88,12 @@ impl Flood {
         self.pending.clear();
         self.pending.resize(open.height(), Span::NONE);
         let (first, word) = (seed.y as usize, seed.x as usize / WORD_CELLS);
-        self.pending[first] = Span { start: word, end: word + 1 };
+        self.pending[first] = Span::of(&(word..word + 1));
         let (mut low, mut high, mut steps) = (first, first, 0);
         let mut upwards = true;
         // All that is pending lies from `low` to `high`, and after a sweep behind it.
         loop {
-            let (mut y, mut behind) = if upwards { (low, Span::NONE) } else { (high, Span::NONE) };
+            let (mut y, mut behind) = (if upwards { low } else { high }, Span::NONE);
             loop {
                 steps += 1;
                 if steps > most_steps {
@@ -128,13 +104,13 @@ impl Flood {
                     if below {
                         low = low.min(y - 1);
                         if upwards {
-                            behind.join(Span { start: y - 1, end: y });
+                            behind.join(Span::of(&(y - 1..y)));
                         }
                     }
                     if above {
                         high = high.max(y + 1);
                         if !upwards {
-                            behind.join(Span { start: y + 1, end: y + 2 });
+                            behind.join(Span::of(&(y + 1..y + 2)));
                         }
                     }
                 }
@@ -146,7 +122,8 @@ impl Flood {
             if behind.is_empty() {
                 return Some(());
             }
-            (low, high) = (behind.start, behind.end - 1);
+            let rows = behind.words();
+            (low, high) = (rows.start, rows.end - 1);
             upwards = !upwards;
         }
     }
@@ -156,7 +133,7 @@ impl Flood {
     #[inline(always)]
     fn visit(&mut self, open: &BitPlane, reached: &mut BitPlane, y: usize) -> (bool, bool) {
         let Self { pending, row, none, eight } = self;
-        let span = std::mem::replace(&mut pending[y], Span::NONE).in_fours(open.row_words());
+        let span = in_fours(&std::mem::replace(&mut pending[y], Span::NONE).words(), open.row_words());
         let cells = open.row(y);
         let (below, here, above) = reached.row_between(y);
         let has_above = !above.is_empty();
@@ -167,22 +144,20 @@ impl Flood {
             both => both,
         };
         if *eight {
-            take_from_corners(here, span, [below, above], cells);
+            take_from_corners(here, &span, [below, above], cells);
         }
-        take_from_beside(here, span, [below, above], cells);
+        take_from_beside(here, &span, [below, above], cells);
         let beside = [y.checked_sub(1), has_above.then_some(y + 1)];
         let mut offers = beside.map(|y| Offer { open: y.map_or(none, |y| open.row(y)), taken: Span::NONE });
-        let end = fill_upwards(here, span, cells);
-        let span = Span { start: span.start, end };
-        let start = fill_downwards(here, span, cells, |i, word| {
+        let end = fill_upwards(here, &span, cells);
+        let start = fill_downwards(here, &(span.start..end), cells, |i, word| {
             if !*eight {
                 offers[0].look(i, word, below);
                 offers[1].look(i, word, above);
             }
         });
         if *eight {
-            let offered = widen(row, Span { start, end }, here);
-            for i in (offered.start..offered.end).rev() {
+            for i in widen(row, &(start..end), here).rev() {
                 offers[0].look(i, row[i], below);
                 offers[1].look(i, row[i], above);
             }
@@ -203,12 +178,18 @@ impl Flood {
     }
 }
 
+/// Some words more of a row of so many, so that there are four and four: work done on four at
+/// a time has fewer left over.
+fn in_fours(words: &Range<usize>, row_words: usize) -> Range<usize> {
+    words.start / 4 * 4..words.end.next_multiple_of(4).min(row_words)
+}
+
 /// Adds to the reached cells of a row, in a span, those that touch a reached cell of the row
 /// below or above at a corner.
 #[inline(always)]
-fn take_from_corners(here: &mut [u64], span: Span, [below, above]: [&[u64]; 2], cells: &[u64]) {
+fn take_from_corners(here: &mut [u64], span: &Range<usize>, [below, above]: [&[u64]; 2], cells: &[u64]) {
     let beside = |i: usize| below.get(i).copied().unwrap_or(0) | above.get(i).copied().unwrap_or(0);
-    for i in span.start..span.end {
+    for i in span.clone() {
         let before = if i > 0 { beside(i - 1) } else { 0 };
         here[i] |= (beside(i) << 1 | before >> 63 | beside(i) >> 1 | beside(i + 1) << 63) & cells[i];
     }
@@ -217,8 +198,8 @@ fn take_from_corners(here: &mut [u64], span: Span, [below, above]: [&[u64]; 2], 
 /// Adds to the reached cells of a row, in a span, those that have a reached one below or
 /// above, and fills within each word the runs in which there are such.
 #[inline(always)]
-fn take_from_beside(here: &mut [u64], span: Span, [below, above]: [&[u64]; 2], cells: &[u64]) {
-    let Span { start, end } = span;
+fn take_from_beside(here: &mut [u64], span: &Range<usize>, [below, above]: [&[u64]; 2], cells: &[u64]) {
+    let Range { start, end } = *span;
     let words = below[start..end].iter().zip(&above[start..end]).zip(&cells[start..end]);
     for (here, ((below, above), &cells)) in here[start..end].iter_mut().zip(words) {
         let seeds = *here | (below | above) & cells;
@@ -230,7 +211,8 @@ fn take_from_beside(here: &mut [u64], span: Span, [below, above]: [&[u64]; 2], c
 /// Fills the runs of a row on into the words after, from a span on as far as that leads; where
 /// it ends.
 #[inline(always)]
-fn fill_upwards(here: &mut [u64], Span { start, mut end }: Span, cells: &[u64]) -> usize {
+fn fill_upwards(here: &mut [u64], span: &Range<usize>, cells: &[u64]) -> usize {
+    let Range { start, mut end } = *span;
     // All bits if the last cell of the word before is reached.
     let mut from_before = 0;
     let mut fill = |here: &mut u64, cells: u64| {
@@ -250,12 +232,8 @@ fn fill_upwards(here: &mut [u64], Span { start, mut end }: Span, cells: &[u64]) 
 /// Fills the runs of a row on into the words before, from a span on as far as that leads, and
 /// visits each word when all of it is filled; where it begins.
 #[inline(always)]
-fn fill_downwards(
-    here: &mut [u64],
-    Span { mut start, end }: Span,
-    cells: &[u64],
-    mut visit: impl FnMut(usize, u64),
-) -> usize {
+fn fill_downwards(here: &mut [u64], span: &Range<usize>, cells: &[u64], mut visit: impl FnMut(usize, u64)) -> usize {
+    let Range { mut start, end } = *span;
     // All bits if the first cell of the word after is reached.
     let mut from_next = 0;
     let mut fill = |i: usize, here: &mut u64, cells: u64| {
@@ -288,6 +266,7 @@ impl Offer<'_> {
     #[inline(always)]
     fn look(&mut self, i: usize, word: u64, reached: &[u64]) {
         let takes = word & self.open[i] & !reached[i] != 0;
+        let i = i as u32;
         // Nobody can guess which words these are: no branch.
         self.taken.start = if takes { i } else { self.taken.start };
         self.taken.end = self.taken.end.max(if takes { i + 1 } else { 0 });
@@ -296,7 +275,7 @@ impl Offer<'_> {
 
 /// The runs of `cells` from their first cell to the last of their seeds.
 #[inline(always)]
-const fn filled_downwards(mut seeds: u64, mut cells: u64) -> u64 {
+pub(super) const fn filled_downwards(mut seeds: u64, mut cells: u64) -> u64 {
     let mut length = 1;
     while length < WORD_CELLS {
         seeds |= seeds >> length & cells;
@@ -309,10 +288,10 @@ const fn filled_downwards(mut seeds: u64, mut cells: u64) -> u64 {
 /// Writes to `row` the reached cells of a span and those to their left and right, one word
 /// wider than what is filled.
 #[inline(always)]
-fn widen(row: &mut [u64], filled: Span, here: &[u64]) -> Span {
-    let wider = Span { start: filled.start.saturating_sub(1), end: (filled.end + 1).min(here.len()) };
+fn widen(row: &mut [u64], filled: &Range<usize>, here: &[u64]) -> Range<usize> {
+    let wider = filled.start.saturating_sub(1)..(filled.end + 1).min(here.len());
     let at = |i: usize| here.get(i).copied().unwrap_or(0);
-    for i in wider.start..wider.end {
+    for i in wider.clone() {
         row[i] = at(i.wrapping_sub(1)) >> 63 | at(i) << 1 | at(i) | at(i) >> 1 | at(i + 1) << 63;
     }
     wider

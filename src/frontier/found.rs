@@ -70,71 +70,36 @@ impl FrontierCells {
         start
     }
 
-    /// Drops the frontiers that are not kept, and puts others among the rest in the order of
-    /// first cells. In place: what lies before the first that is dropped or new stays there.
-    pub(super) fn replace<'a, F>(&mut self, is_kept: impl Fn(&[Cell]) -> bool, fresh: F)
-    where
-        F: DoubleEndedIterator<Item = &'a [Cell]> + ExactSizeIterator + Clone,
-    {
-        self.keep(is_kept);
-        let (mut kept, mut new) = (self.len(), fresh.len());
-        let mut kept_end = self.cells.len();
-        self.cells.resize(kept_end + fresh.clone().map(<[Cell]>::len).sum::<usize>(), Cell::new(0, 0));
-        self.ends.resize(kept + new, 0);
-        // From the last on, so that nothing is written over what has still to be moved.
-        let mut place = self.cells.len();
-        for cells in fresh.rev() {
-            let before = self.count_before(kept, cells);
-            let moved = self.start(before)..kept_end;
-            let by = place - kept_end;
-            self.cells.copy_within(moved.clone(), moved.start + by);
-            for i in (before..kept).rev() {
-                self.ends[i + new] = self.ends[i] + by as u32;
-            }
-            (kept, kept_end, place) = (before, moved.start, moved.start + by);
-            self.ends[kept + new - 1] = place as u32;
-            place -= cells.len();
+    /// Drops frontiers and puts others, which come in the order of first cells, among the
+    /// rest. What is kept is moved once, and not at all before the first that is dropped or
+    /// new.
+    pub(super) fn splice<'a>(&mut self, splice: &mut Splice, fresh: impl Iterator<Item = &'a [Cell]> + Clone) {
+        splice.plan(self, fresh.clone());
+        let Splice { blocks, places, cells, frontiers, .. } = &*splice;
+        self.cells.resize((*cells).max(self.cells.len()), Cell::new(0, 0));
+        self.ends.resize((*frontiers).max(self.ends.len()), 0);
+        move_all(&mut self.cells, blocks.iter().map(|block| (&block.cells, block.to_cell)));
+        move_all(&mut self.ends, blocks.iter().map(|block| (&block.frontiers, block.to_frontier)));
+        for Block { frontiers, cells, to_frontier, to_cell } in blocks {
+            let moved = &mut self.ends[*to_frontier..to_frontier + frontiers.len()];
+            moved.iter_mut().for_each(|end| *end = (*end as usize - cells.start + to_cell) as u32);
+        }
+        for (cells, &(frontier, place)) in fresh.zip(places) {
             self.cells[place..place + cells.len()].copy_from_slice(cells);
-            new -= 1;
+            self.ends[frontier] = (place + cells.len()) as u32;
         }
+        self.cells.truncate(*cells);
+        self.ends.truncate(*frontiers);
     }
 
-    /// Closes the gaps that frontiers leave which are not kept.
-    fn keep(&mut self, is_kept: impl Fn(&[Cell]) -> bool) {
-        let (mut kept, mut end) = (0, 0);
-        // Neighbours that are kept are moved together.
-        let mut block = 0..0;
-        for i in 0..self.len() {
-            let cells = block.end..self.ends[i] as usize;
-            if is_kept(&self.cells[cells.clone()]) {
-                self.ends[kept] = (end + cells.end - block.start) as u32;
-                kept += 1;
-                block.end = cells.end;
-            } else {
-                end = self.move_down(&block, end);
-                block = cells.end..cells.end;
-            }
-        }
-        end = self.move_down(&block, end);
-        self.cells.truncate(end);
-        self.ends.truncate(kept);
-    }
-
-    /// Moves cells to a place not after their own; where they end there.
-    fn move_down(&mut self, cells: &Range<usize>, place: usize) -> usize {
-        if place < cells.start {
-            self.cells.copy_within(cells.clone(), place);
-        }
-        place + cells.len()
-    }
-
-    /// How many of the first so many frontiers begin before another.
-    fn count_before(&self, count: usize, other: &[Cell]) -> usize {
-        let order = |cells: &[Cell]| cells.first().map(|cell| (cell.y, cell.x));
-        let (mut low, mut high) = (0, count);
+    /// How many frontiers begin before a cell, in row-major order.
+    pub(super) fn count_before(&self, cell: Cell) -> usize {
+        let (mut low, mut high) = (0, self.len());
         while low < high {
             let middle = usize::midpoint(low, high);
-            if order(self.frontier(middle)) < order(other) { low = middle + 1 } else { high = middle }
+            let begins_before =
+                self.frontier(middle).first().is_some_and(|first| (first.y, first.x) < (cell.y, cell.x));
+            if begins_before { low = middle + 1 } else { high = middle }
         }
         low
     }
@@ -144,7 +109,8 @@ impl FrontierCells {
         if index > 0 { self.ends[index - 1] as usize } else { 0 }
     }
 
-    fn frontier(&self, index: usize) -> &[Cell] {
+    /// The cells of a frontier.
+    pub(super) fn frontier(&self, index: usize) -> &[Cell] {
         &self.cells[self.start(index)..self.ends[index] as usize]
     }
 
@@ -207,6 +173,99 @@ impl FrontierCells {
     }
 }
 
+/// What is to be done to a list of frontiers, with the buffers of it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Splice {
+    /// Which are dropped, in order.
+    dropped: Vec<u32>,
+    /// Those that are kept, as they stand beside each other.
+    blocks: Vec<Block>,
+    /// Of each new one which it becomes and where its cells go.
+    places: Vec<(usize, usize)>,
+    /// How many cells and frontiers there are in the end.
+    cells: usize,
+    frontiers: usize,
+}
+
+/// Frontiers that stay beside each other.
+#[derive(Clone, Debug)]
+struct Block {
+    frontiers: Range<usize>,
+    cells: Range<usize>,
+    to_frontier: usize,
+    to_cell: usize,
+}
+
+/// Moves parts of a list that do not pass each other: downwards from the first on and upwards
+/// from the last on, so that nothing is written over that has still to be moved.
+fn move_all<'a, T: Copy>(list: &mut [T], moves: impl DoubleEndedIterator<Item = (&'a Range<usize>, usize)> + Clone) {
+    for (from, to) in moves.clone().filter(|(from, to)| *to < from.start) {
+        list.copy_within(from.clone(), to);
+    }
+    for (from, to) in moves.rev().filter(|(from, to)| *to > from.start) {
+        list.copy_within(from.clone(), to);
+    }
+}
+
+impl Splice {
+    /// Forgets what was to be done.
+    pub fn forget(&mut self) {
+        self.dropped.clear();
+    }
+
+    /// Drops a frontier that comes after those dropped so far.
+    pub fn drop(&mut self, index: usize) {
+        self.dropped.push(index as u32);
+    }
+
+    /// Finds out what goes where.
+    fn plan<'a>(&mut self, found: &FrontierCells, fresh: impl Iterator<Item = &'a [Cell]>) {
+        let Self { dropped, blocks, places, cells, frontiers } = self;
+        blocks.clear();
+        places.clear();
+        (*cells, *frontiers) = (0, 0);
+        let mut next = 0;
+        let mut keep_to = |next: &mut usize, end: usize, frontiers: &mut usize, cells: &mut usize| {
+            if *next < end {
+                let block = Block {
+                    frontiers: *next..end,
+                    cells: found.start(*next)..found.start(end),
+                    to_frontier: *frontiers,
+                    to_cell: *cells,
+                };
+                *frontiers += end - *next;
+                *cells += block.cells.len();
+                blocks.push(block);
+                *next = end;
+            }
+        };
+        let mut dropped = dropped.iter().map(|&index| index as usize).peekable();
+        for new in fresh {
+            let place = new.first().map_or(0, |&first| found.count_before(first));
+            while let Some(index) = dropped.next_if(|&index| index < place) {
+                keep_to(&mut next, index, frontiers, cells);
+                next = index + 1;
+            }
+            keep_to(&mut next, place, frontiers, cells);
+            places.push((*frontiers, *cells));
+            *frontiers += 1;
+            *cells += new.len();
+        }
+        for index in dropped {
+            keep_to(&mut next, index, frontiers, cells);
+            next = index + 1;
+        }
+        keep_to(&mut next, found.len(), frontiers, cells);
+    }
+
+    /// What the buffers take in memory, bytes.
+    pub fn memory_bytes(&self) -> usize {
+        self.dropped.capacity() * size_of::<u32>()
+            + self.blocks.capacity() * size_of::<Block>()
+            + self.places.capacity() * size_of::<(usize, usize)>()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -232,7 +291,10 @@ mod tests {
             };
             let mut list = of_kinds(&[0, 1]);
             let fresh = of_kinds(&[2]);
-            list.replace(|cells| kinds[cells[0].x as usize] == 0, fresh.iter().collect::<Vec<_>>().into_iter());
+            let mut splice = Splice::default();
+            let kinds_listed = (0..).zip(list.iter().map(|cells| kinds[cells[0].x as usize]));
+            kinds_listed.filter(|&(_, kind)| kind == 1).for_each(|(index, _)| splice.drop(index));
+            list.splice(&mut splice, fresh.iter().collect::<Vec<_>>().into_iter());
             let expected = of_kinds(&[0, 2]);
             prop_assert_eq!((list.cells, list.ends), (expected.cells, expected.ends));
         }

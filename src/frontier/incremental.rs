@@ -11,11 +11,10 @@
 
 use super::clusters::Clusters;
 use super::found::FrontierCells;
-use super::reach::{Changed, Reach};
+use super::reach::Reach;
 use super::regroup::Regroup;
 use super::shifts::neighbours_of_row;
-use super::tiles::Tiling;
-use super::window::Window;
+use super::spans::{Span, Spans};
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{BitPlane, BitPlanes, BitWork, Cell, CellRect, GridInfo, Neighbourhood, with_bit_instructions};
 use std::ops::Range;
@@ -29,16 +28,15 @@ pub struct Incremental {
     /// By the textbook: the cells that the search could walk on.
     open: BitPlane,
     reach: Reach,
-    tiling: Tiling,
     frontier: BitPlane,
-    /// Words that changed: the row, and which of it.
-    changed: Vec<(usize, Range<usize>)>,
-    /// Tiles whose territory or reach changed.
-    stale: Vec<bool>,
-    /// Of each tile, where its reach changed.
-    reach_changed: Vec<Changed>,
-    /// Tiles with other frontier cells than before.
-    regroup: Vec<bool>,
+    /// Words of the map that changed.
+    changed: Spans,
+    /// Words in which other cells are reached than before.
+    reach_changed: Spans,
+    /// Words of which the frontier cells are to be found again.
+    stale: Spans,
+    /// Words with other frontier cells than before.
+    regroup: Spans,
     /// The smallest number of cells of the frontiers found; `None` if all are to be found
     /// anew.
     min_cells: Option<usize>,
@@ -62,12 +60,11 @@ impl Incremental {
             planes: BitPlanes::default(),
             open: BitPlane::default(),
             reach: Reach::new(connected_by),
-            tiling: Tiling::default(),
             frontier: BitPlane::default(),
-            changed: Vec::new(),
-            stale: Vec::new(),
-            reach_changed: Vec::new(),
-            regroup: Vec::new(),
+            changed: Spans::default(),
+            reach_changed: Spans::default(),
+            stale: Spans::default(),
+            regroup: Spans::default(),
             min_cells: None,
             clusters: Clusters::default(),
             groups: Regroup::default(),
@@ -99,25 +96,17 @@ impl Incremental {
             Reachability::Textbook => &self.open,
         };
         self.reach.update(plane, &self.seeds, &mut self.reach_changed);
-        self.mark_stale();
         self.find_frontier_cells();
         let min_cells = self.params.min_cells(info);
         let (frontier, neighbours) = (&mut self.frontier, self.params.neighbours);
         let repaired = self.min_cells == Some(min_cells)
-            && self.groups.update(
-                frontier,
-                &self.tiling,
-                &self.regroup,
-                neighbours,
-                min_cells,
-                Arc::make_mut(&mut self.found),
-            );
+            && self.groups.update(frontier, &self.regroup, neighbours, min_cells, Arc::make_mut(&mut self.found));
         if !repaired {
             let found = FrontierCells::anew(&mut self.found);
             self.clusters.collect(frontier, neighbours, min_cells, found);
             self.min_cells = Some(min_cells);
         }
-        self.regroup.fill(false);
+        self.regroup.clear();
         Ok(&self.found)
     }
 
@@ -131,10 +120,10 @@ impl Incremental {
             + self.reach.memory_bytes()
             + self.clusters.memory_bytes()
             + self.groups.memory_bytes()
-            + self.changed.capacity() * size_of::<(usize, Range<usize>)>()
-            + self.stale.capacity()
-            + self.reach_changed.capacity() * size_of::<Changed>()
-            + self.regroup.capacity()
+            + [&self.changed, &self.reach_changed, &self.stale, &self.regroup]
+                .map(Spans::memory_bytes)
+                .iter()
+                .sum::<usize>()
             + self.row.capacity() * size_of::<u64>()
             + self.seeds.capacity() * size_of::<Cell>()
     }
@@ -152,18 +141,19 @@ impl Incremental {
             return;
         }
         let rect = changed.unwrap_or_else(|| CellRect::of(info));
-        let list = &mut self.changed;
-        let thresholds = &self.params.thresholds;
-        self.planes.repack(input.grid, thresholds, rect.rows(info), rect.words(info), |y, words| list.push((y, words)));
-        for index in 0..self.changed.len() {
-            let (y, words) = self.changed[index].clone();
-            for word in words.clone() {
-                self.stale[self.tiling.at(y, word)] = true;
-            }
+        let Self { changed, params, planes, .. } = self;
+        planes.repack(input.grid, &params.thresholds, rect.rows(info), rect.words(info), |y, words| {
+            changed.add(y, Span::of(&words));
+        });
+        for y in self.changed.rows() {
+            let span = self.changed.of_row(y);
+            self.stale.add(y, span);
             match self.params.reachability {
-                Reachability::WallsBlock => words.for_each(|word| self.reach.touch(y, word)),
+                Reachability::WallsBlock => span.words().for_each(|word| self.reach.touch(y, word)),
+                Reachability::Textbook if span.is_empty() => {}
                 Reachability::Textbook => {
-                    let words = words.start.saturating_sub(1)..(words.end + 1).min(self.open.row_words());
+                    let Range { start, end } = span.words();
+                    let words = start.saturating_sub(1)..(end + 1).min(self.open.row_words());
                     for y in y.saturating_sub(1)..(y + 2).min(info.height()) {
                         self.open_row(y, words.clone());
                     }
@@ -180,12 +170,10 @@ impl Incremental {
             self.open.resize(width, height);
         }
         self.reach.reset(width, height);
-        self.tiling = Tiling::new(self.frontier.row_words(), height);
-        for flags in [&mut self.stale, &mut self.regroup] {
-            flags.clear();
-            flags.resize(self.tiling.len(), true);
+        for spans in [&mut self.changed, &mut self.reach_changed, &mut self.stale, &mut self.regroup] {
+            spans.reset(self.frontier.row_words(), height);
         }
-        self.reach_changed.resize(self.tiling.len(), Changed::default());
+        self.stale.add_all();
         self.row.resize(self.frontier.row_words(), 0);
         self.min_cells = None;
     }
@@ -213,71 +201,65 @@ impl Incremental {
         }
     }
 
-    /// Where walls block, a frontier cell may lie beside what is reached.
-    fn mark_stale(&mut self) {
-        let beside: &[(isize, isize)] = match self.params.reachability {
-            Reachability::Textbook => &[(0, 0)],
-            Reachability::WallsBlock => &[(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)],
-        };
-        for (tile, changed) in self.reach_changed.iter().enumerate().filter(|(_, changed)| changed.any) {
-            let touched = beside.iter().filter(|&&offset| changed.touches(offset));
-            for near in touched.filter_map(|&offset| self.tiling.beside(tile, offset)) {
-                self.stale[near] = true;
-            }
-        }
-    }
-
-    /// Finds again the frontier cells of the tiles that are stale.
+    /// Finds again the frontier cells where the map or what is reached changed; where walls
+    /// block, they lie beside what is reached.
     fn find_frontier_cells(&mut self) {
         let beside = match self.params.reachability {
             Reachability::Textbook => None,
             Reachability::WallsBlock => Some(self.params.neighbours),
         };
-        for tile in 0..self.tiling.len() {
-            if std::mem::take(&mut self.stale[tile]) {
-                let window = self.tiling.window(tile);
-                let (reached, unknown) = (self.reach.plane(), self.planes.unknown());
-                let row = &mut self.row[window.words.clone()];
-                let frontier = &mut self.frontier;
-                self.regroup[tile] |=
-                    with_bit_instructions(FindCells { reached, unknown, beside, window, row, frontier });
+        for (y, span) in self.reach_changed.iter() {
+            match beside {
+                Some(_) => self.stale.add_with_margin(y, span),
+                None => self.stale.add(y, span),
             }
         }
+        self.reach_changed.clear();
+        let Self { stale, row, frontier, regroup, .. } = self;
+        let (reached, unknown) = (self.reach.plane(), self.planes.unknown());
+        with_bit_instructions(FindCells { reached, unknown, beside, stale, row, frontier, regroup });
+        self.stale.clear();
     }
 }
 
-/// Finds the frontier cells of a window: the unknown ones that are reached, or beside what
-/// is. Whether they are others than before.
+/// Finds the frontier cells of words: the unknown ones that are reached, or beside what is.
+/// Notes the words in which they are others than before.
 struct FindCells<'a> {
     reached: &'a BitPlane,
     unknown: &'a BitPlane,
     beside: Option<Neighbourhood>,
-    window: Window,
-    /// Room for a row of the window.
+    stale: &'a Spans,
+    /// Room for a row.
     row: &'a mut [u64],
     frontier: &'a mut BitPlane,
+    regroup: &'a mut Spans,
 }
 
 impl BitWork for FindCells<'_> {
-    type Output = bool;
+    type Output = ();
 
     #[inline(always)]
-    fn run(self) -> bool {
-        let Self { reached, unknown, beside, window, row, frontier } = self;
-        let mut differ = 0;
-        for y in window.rows.clone() {
+    fn run(self) {
+        let Self { reached, unknown, beside, stale, row, frontier, regroup } = self;
+        for (y, span) in stale.iter() {
+            let words = span.words();
+            let row = &mut row[words.clone()];
             match beside {
-                Some(neighbours) => neighbours_of_row(reached, neighbours, y, window.words.clone(), row),
-                None => row.copy_from_slice(window.row(reached, y)),
+                Some(neighbours) => neighbours_of_row(reached, neighbours, y, words.clone(), row),
+                None => row.copy_from_slice(&reached.row(y)[words.clone()]),
             }
-            let known = &mut frontier.row_mut(y)[window.words.clone()];
-            for ((row, unknown), known) in row.iter().zip(window.row(unknown, y)).zip(known) {
+            let unknown = &unknown.row(y)[words.clone()];
+            let known = &mut frontier.row_mut(y)[words.clone()];
+            let mut differ = Span::NONE;
+            for (i, (known, (row, unknown))) in words.zip(known.iter_mut().zip(row.iter().zip(unknown))) {
                 let found = row & unknown;
-                differ |= *known ^ found;
-                *known = found;
+                if *known != found {
+                    *known = found;
+                    differ.join(Span::of(&(i..i + 1)));
+                }
             }
+            regroup.add(y, differ);
         }
-        differ != 0
     }
 }
 

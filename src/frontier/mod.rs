@@ -26,6 +26,7 @@ mod regroup;
 mod representative;
 mod runs;
 mod shifts;
+mod spans;
 mod tiles;
 mod tracker;
 mod union_find;

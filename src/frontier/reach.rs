@@ -1,15 +1,13 @@
 //! What is connected to a seed in a plane that changes here and there.
 
 mod labelled;
-mod written;
 
 use super::joins::Joins;
+use super::spans::{Span, Spans};
 use super::tiles::{Tile, Tiling};
 use super::union_find::{root_of, unite};
 use crate::grid::{BitPlane, Cell, Neighbourhood};
 use labelled::LabelledTiles;
-pub(super) use written::Changed;
-use written::Written;
 
 /// The connections of a plane and what of it is reached.
 #[derive(Clone, Debug)]
@@ -90,21 +88,22 @@ impl Reach {
     }
 
     /// Finds again what is connected to any of the seeds in the plane, which must be as it
-    /// was but for the words touched. Tells of each tile where in it other cells are
-    /// reached than before.
-    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut [Changed]) {
+    /// was but for the words touched. Adds the words in which other cells are reached than
+    /// before.
+    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut Spans) {
         self.labelled.forget(&self.dirty);
         self.label_rims(plane);
         self.join_tiles(plane);
         self.connect();
         self.mark_reached(plane, seeds);
-        for (tile, changed) in changed.iter_mut().enumerate().take(self.tiles.len()) {
+        for tile in 0..self.tiles.len() {
             let inner = self.inner.iter().any(|&(of, _)| of == tile);
             let nodes = self.first_node[tile] as usize..self.first_node[tile + 1] as usize;
             let written = self.first_written[tile] as usize..self.first_written[tile + 1] as usize;
             let same = self.reached[nodes] == self.written[written];
-            let is_same = same && !(self.dirty[tile] || inner || self.has_inner[tile]);
-            *changed = if is_same { Changed::default() } else { self.write(plane, tile, inner) };
+            if !same || self.dirty[tile] || inner || self.has_inner[tile] {
+                self.write(plane, tile, inner, changed);
+            }
             self.has_inner[tile] = inner;
         }
         self.dirty.fill(false);
@@ -207,28 +206,33 @@ impl Reach {
     }
 
     /// Writes the reached cells of a tile, which has a seed within its rim or not.
-    fn write(&mut self, plane: &BitPlane, tile: usize, is_seeded: bool) -> Changed {
+    fn write(&mut self, plane: &BitPlane, tile: usize, is_seeded: bool, changed: &mut Spans) {
         let window = self.tiling.window(tile);
         let reached = &self.reached[self.first_node[tile] as usize..self.first_node[tile + 1] as usize];
-        let mut written = Written { changed: Changed::default(), window: &window, plane: &mut self.plane };
+        let mut write = |y: usize, i: usize, word: u64| {
+            let target = &mut self.plane.row_mut(y)[i];
+            if *target != word {
+                *target = word;
+                changed.add(y, Span::of(&(i..i + 1)));
+            }
+        };
         let is_mixed = reached.contains(&true) && reached.contains(&false);
         if !(self.tiles[tile].has_islands || is_seeded || is_mixed) {
             // All or nothing: no need to know which cell is whose.
             let all = if reached.contains(&true) { u64::MAX } else { 0 };
             for y in window.rows.clone() {
                 for (i, &word) in window.words.clone().zip(window.row(plane, y)) {
-                    written.put(y, i, word & all);
+                    write(y, i, word & all);
                 }
             }
-            return written.changed;
+            return;
         }
         let labelled = self.labelled.of((tile, &mut self.tiles[tile]), plane, &self.tiling, self.neighbourhood);
         let is_kept = |component: u32| match labelled.node_of(component) {
             Some(node) => reached[usize::from(node)],
             None => self.inner.contains(&(tile, component)),
         };
-        labelled.labels.select(plane, &window, is_kept, |y, i, word| written.put(y, i, word));
-        written.changed
+        labelled.labels.select(plane, &window, is_kept, write);
     }
 
     /// What all this takes in memory, bytes.

@@ -34,7 +34,8 @@ proptest! {
         let mut plane = BitPlane::new(WIDTH, HEIGHT);
         let mut reach = Reach::new(neighbourhood);
         reach.reset(WIDTH, HEIGHT);
-        let mut changed = vec![Changed::default(); reach.tiles.len()];
+        let mut changed = Spans::default();
+        changed.reset(plane.row_words(), HEIGHT);
         for (lines, seed) in steps {
             let cells: Vec<Cell> = lines.iter().flat_map(|(cells, _)| cells.clone()).collect();
             for (cells, is_set) in &lines {
@@ -45,6 +46,7 @@ proptest! {
             }
             let before = reach.plane().clone();
             let seed = cells[seed.index(cells.len())];
+            changed.clear();
             reach.update(&plane, &[seed], &mut changed);
             let all = Window::of(&plane);
             let mut labels = Labels::default();
@@ -53,10 +55,12 @@ proptest! {
             let mut expected = BitPlane::new(WIDTH, HEIGHT);
             labels.select(&plane, &all, |c| Some(c) == kept, |y, i, word| expected.row_mut(y)[i] = word);
             prop_assert!(reach.plane() == &expected, "{} of {} cells", reach.plane().count(), expected.count());
-            for (tile, changed) in changed.iter().enumerate().take(reach.tiles.len()) {
-                let window = reach.tiling.window(tile);
-                let differs = window.rows.clone().any(|y| window.row(&before, y) != window.row(&expected, y));
-                prop_assert_eq!(changed.any, differs);
+            for y in 0..HEIGHT {
+                let words = (0..plane.row_words()).filter(|&i| before.row(y)[i] != expected.row(y)[i]);
+                let mut differ = Span::NONE;
+                words.for_each(|i| differ.join(Span::of(&(i..i + 1))));
+                let told: Vec<_> = changed.iter().filter(|&(row, _)| row == y).map(|(_, span)| span).collect();
+                prop_assert_eq!(told, if differ.is_empty() { vec![] } else { vec![differ] });
             }
         }
     }

@@ -1,9 +1,9 @@
-//! The frontiers of a plane of which some tiles changed.
+//! The frontiers of a plane of which some words changed.
 
-use super::found::FrontierCells;
-use super::tiles::Tiling;
-use super::window::Window;
-use crate::grid::{BitPlane, Cell, Neighbourhood, WORD_CELLS};
+use super::flood::filled_downwards;
+use super::found::{FrontierCells, Splice};
+use super::spans::Spans;
+use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_instructions};
 use std::ops::Range;
 
 /// To find a cell's frontier again costs about as much as to label so many words.
@@ -11,155 +11,197 @@ const WORDS_PER_CELL: usize = 8;
 /// So many cells are found again in any case.
 const MIN_CELLS: usize = 16;
 
+/// Cells of one word.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    y: u32,
+    word: u32,
+    cells: u64,
+}
+
 /// Repairs lists of frontiers, with the buffers it keeps.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Regroup {
     /// The cells taken out of the plane, those of one frontier after those of another.
+    pieces: Vec<Piece>,
+    /// Where the pieces of each frontier end.
+    ends: Vec<u32>,
+    /// The cells of the frontiers found again, and which are whose.
     cells: Vec<Cell>,
-    /// Which of them each frontier has.
     frontiers: Vec<[u32; 2]>,
+    splice: Splice,
 }
 
 impl Regroup {
-    /// Finds again the frontiers that have a cell in a tile that changed or touch one that
+    /// Finds again the frontiers that have a cell in a word that changed or touch one that
     /// has; the others are kept. `false`, and nothing done, if these are so many that to
     /// find all anew is as good. Of the plane nothing is changed in the end.
     pub fn update(
         &mut self,
         plane: &mut BitPlane,
-        tiling: &Tiling,
-        changed: &[bool],
+        changed: &Spans,
         neighbourhood: Neighbourhood,
         min_cells: usize,
         found: &mut FrontierCells,
     ) -> bool {
         let most_cells = plane.words().len() / WORDS_PER_CELL + MIN_CELLS;
-        self.cells.clear();
-        self.frontiers.clear();
-        let tiles = ChangedTiles::new(tiling, changed);
-        let done = self.take_touched(plane, &tiles, neighbourhood, found, most_cells).is_some();
+        self.pieces.clear();
+        self.ends.clear();
+        let eight = neighbourhood == Neighbourhood::Eight;
+        let Self { pieces, ends, .. } = self;
+        let takes = Takes { plane, changed, eight, found, pieces, ends, left: most_cells };
+        let done = with_bit_instructions(takes).is_some();
         if done {
-            self.order(min_cells);
-            // Kept are those whose cells are still in the plane: all that have no cell within
-            // or beside the rows that changed.
-            let is_far = |cells: &[Cell]| match cells {
-                [first, .., last] => first.y > tiles.rows.end || last.y + 1 < tiles.rows.start,
-                _ => false,
-            };
-            let is_kept = |cells: &[Cell]| is_far(cells) || cells.first().is_some_and(|&cell| plane.contains(cell));
-            let cells_of = |&[start, end]: &[u32; 2]| &self.cells[start as usize..end as usize];
-            found.replace(is_kept, self.frontiers.iter().map(cells_of));
+            self.splice.forget();
+            // Dropped are those whose cells are out of the plane: some of those that have a
+            // cell within or beside the rows that changed.
+            for index in near(changed, found) {
+                if found.frontier(index).first().is_none_or(|&cell| !plane.contains(cell)) {
+                    self.splice.drop(index);
+                }
+            }
         }
-        for &cell in &self.cells {
-            plane.insert(cell);
+        for &Piece { y, word, cells } in &self.pieces {
+            plane.row_mut(y as usize)[word as usize] |= cells;
+        }
+        if done {
+            self.list(min_cells);
+            let cells_of = |&[start, end]: &[u32; 2]| &self.cells[start as usize..end as usize];
+            found.splice(&mut self.splice, self.frontiers.iter().map(cells_of));
         }
         done
     }
 
-    /// Takes the cells of the frontiers to be found again out of the plane; `None` if they
-    /// are too many.
-    fn take_touched(
-        &mut self,
-        plane: &mut BitPlane,
-        tiles: &ChangedTiles<'_>,
-        neighbourhood: Neighbourhood,
-        found: &FrontierCells,
-        most_cells: usize,
-    ) -> Option<()> {
-        for window in tiles.windows() {
-            for y in window.rows.clone() {
-                for index in window.words.clone() {
-                    while let bits @ 1.. = plane.row(y)[index] {
-                        let x = index * WORD_CELLS + bits.trailing_zeros() as usize;
-                        self.take(plane, Cell::new(x as i32, y as i32), neighbourhood, most_cells)?;
-                    }
+    /// Lists the cells of the frontiers that have enough of them, in the order of first cells.
+    fn list(&mut self, min_cells: usize) {
+        let Self { pieces, ends, cells, frontiers, .. } = self;
+        cells.clear();
+        frontiers.clear();
+        let mut start = 0;
+        for &end in &*ends {
+            let of_frontier = &mut pieces[start..end as usize];
+            start = end as usize;
+            of_frontier.sort_unstable_by_key(|piece| (piece.y, piece.word));
+            let first = cells.len();
+            for of_word in of_frontier.chunk_by(|a, b| (a.y, a.word) == (b.y, b.word)) {
+                let Piece { y, word, .. } = of_word[0];
+                let mut left = of_word.iter().fold(0, |all, piece| all | piece.cells);
+                while left != 0 {
+                    let x = word * WORD_CELLS as u32 + left.trailing_zeros();
+                    cells.push(Cell::new(x as i32, y as i32));
+                    left &= left - 1;
                 }
             }
-        }
-        // What is left of the frontiers that lost a cell; their cells are in the order of rows,
-        // and they in that of their first cells.
-        let begins_before = |cells: &&[Cell]| cells.first().is_some_and(|first| first.y < tiles.rows.end);
-        let is_near = |cells: &[Cell]| cells.last().is_some_and(|last| last.y >= tiles.rows.start);
-        let is_changed = |cell: &Cell| tiles.contain(*cell);
-        for cells in
-            found.iter().take_while(begins_before).filter(|cells| is_near(cells) && cells.iter().any(is_changed))
-        {
-            for &cell in cells {
-                self.take(plane, cell, neighbourhood, most_cells)?;
+            if cells.len() - first < min_cells {
+                cells.truncate(first);
+            } else {
+                frontiers.push([first as u32, cells.len() as u32]);
             }
         }
-        Some(())
-    }
-
-    /// Drops the frontiers with fewer cells, and orders the others and their cells.
-    fn order(&mut self, min_cells: usize) {
-        let Self { cells, frontiers } = self;
-        let row_major = |cell: &Cell| (cell.y, cell.x);
-        frontiers.retain(|&[start, end]| (end - start) as usize >= min_cells);
-        for &[start, end] in &*frontiers {
-            cells[start as usize..end as usize].sort_unstable_by_key(row_major);
-        }
-        frontiers.sort_unstable_by_key(|&[start, _]| row_major(&cells[start as usize]));
-    }
-
-    /// Takes a cell that is still set out of the plane, and all that are connected to it: a
-    /// frontier.
-    fn take(
-        &mut self,
-        plane: &mut BitPlane,
-        cell: Cell,
-        neighbourhood: Neighbourhood,
-        most_cells: usize,
-    ) -> Option<()> {
-        if !plane.remove(cell) {
-            return Some(());
-        }
-        let start = self.cells.len();
-        let mut next = start;
-        self.cells.push(cell);
-        while let Some(&cell) = self.cells.get(next) {
-            next += 1;
-            for beside in [-1, 0, 1].map(|y| cell.offset((0, y))) {
-                let set = match neighbourhood {
-                    Neighbourhood::Four if beside != cell => [false, plane.remove(beside), false],
-                    _ => plane.remove_three(beside),
-                };
-                for x in (-1..=1).zip(set).filter_map(|(x, set)| set.then_some(x)) {
-                    self.cells.push(beside.offset((x, 0)));
-                }
-            }
-        }
-        self.frontiers.push([start as u32, next as u32]);
-        (next <= most_cells).then_some(())
+        frontiers.sort_unstable_by_key(|&[start, _]| (cells[start as usize].y, cells[start as usize].x));
     }
 
     /// What the buffers take in memory, bytes.
     pub fn memory_bytes(&self) -> usize {
-        self.cells.capacity() * size_of::<Cell>() + self.frontiers.capacity() * size_of::<[u32; 2]>()
+        self.pieces.capacity() * size_of::<Piece>()
+            + self.ends.capacity() * size_of::<u32>()
+            + self.cells.capacity() * size_of::<Cell>()
+            + self.frontiers.capacity() * size_of::<[u32; 2]>()
+            + self.splice.memory_bytes()
     }
 }
 
-/// The tiles that changed.
-struct ChangedTiles<'a> {
-    tiling: &'a Tiling,
-    changed: &'a [bool],
-    /// From the lowest to the highest of them.
-    rows: Range<i32>,
+/// The frontiers that have a cell in the rows that changed or in one beside them.
+fn near(changed: &Spans, found: &FrontierCells) -> impl Iterator<Item = usize> {
+    let rows = changed.rows();
+    let (low, high) = (rows.start as i32 - 1, rows.end as i32);
+    // They are in the order of first cells, and their cells in that of rows.
+    let begun = if rows.is_empty() { 0 } else { found.count_before(Cell::new(0, high + 1)) };
+    (0..begun).filter(move |&index| found.frontier(index).last().is_some_and(|last| last.y >= low))
 }
 
-impl<'a> ChangedTiles<'a> {
-    fn new(tiling: &'a Tiling, changed: &'a [bool]) -> Self {
-        let mut this = Self { tiling, changed, rows: 0..0 };
-        let rows = this.windows().map(|window| window.rows.start as i32..window.rows.end as i32);
-        this.rows = rows.reduce(|all, rows| all.start.min(rows.start)..all.end.max(rows.end)).unwrap_or(0..0);
-        this
+/// Takes the frontiers to be found again out of the plane; `None` if they are too many.
+struct Takes<'a> {
+    plane: &'a mut BitPlane,
+    changed: &'a Spans,
+    eight: bool,
+    found: &'a FrontierCells,
+    pieces: &'a mut Vec<Piece>,
+    ends: &'a mut Vec<u32>,
+    /// So many cells may be taken yet.
+    left: usize,
+}
+
+impl BitWork for Takes<'_> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn run(mut self) -> Option<()> {
+        for (y, span) in self.changed.iter() {
+            for word in span.words() {
+                while let cells @ 1.. = self.plane.row(y)[word] {
+                    self.take_connected(y, word, cells & cells.wrapping_neg())?;
+                }
+            }
+        }
+        // What is left of the frontiers that lost a cell.
+        let (found, changed) = (self.found, self.changed);
+        let is_changed = |cell: &Cell| changed.contain(cell.y as usize, cell.x as usize / WORD_CELLS);
+        for cells in near(changed, found).map(|index| found.frontier(index)) {
+            if cells.iter().any(is_changed) {
+                for &Cell { x, y } in cells {
+                    let (y, word, bit) = (y as usize, x as usize / WORD_CELLS, 1 << (x as usize % WORD_CELLS));
+                    if self.plane.row(y)[word] & bit != 0 {
+                        self.take_connected(y, word, bit)?;
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+impl Takes<'_> {
+    /// Takes a frontier out of the plane, of which a cell is given.
+    #[inline(always)]
+    fn take_connected(&mut self, y: usize, word: usize, cell: u64) -> Option<()> {
+        let mut next = self.pieces.len();
+        self.take(y, word, cell);
+        while let Some(&Piece { y, word, cells }) = self.pieces.get(next) {
+            next += 1;
+            let (y, word) = (y as usize, word as usize);
+            let corners = if self.eight { cells << 1 | cells >> 1 } else { 0 };
+            let Range { start, end } = y.saturating_sub(1)..(y + 2).min(self.plane.height());
+            for beside in start..end {
+                // Within the row all that is beside in the word is taken already.
+                if beside != y {
+                    self.take(beside, word, cells | corners);
+                }
+                if beside == y || self.eight {
+                    if cells & 1 != 0 && word > 0 {
+                        self.take(beside, word - 1, 1 << 63);
+                    }
+                    if cells >> 63 != 0 && word + 1 < self.plane.row_words() {
+                        self.take(beside, word + 1, 1);
+                    }
+                }
+            }
+            self.left = self.left.checked_sub(cells.count_ones() as usize)?;
+        }
+        self.ends.push(next as u32);
+        Some(())
     }
 
-    fn windows(&self) -> impl Iterator<Item = Window> {
-        (0..self.tiling.len()).filter(|&tile| self.changed[tile]).map(|tile| self.tiling.window(tile))
-    }
-
-    fn contain(&self, cell: Cell) -> bool {
-        self.changed[self.tiling.at(cell.y as usize, cell.x as usize / WORD_CELLS)]
+    /// Takes the runs of a word that have one of these cells.
+    #[inline(always)]
+    fn take(&mut self, y: usize, word: usize, seeds: u64) {
+        let cells = &mut self.plane.row_mut(y)[word];
+        let seeds = seeds & *cells;
+        if seeds != 0 {
+            let to_the_end = seeds | *cells & !cells.wrapping_add(seeds);
+            let taken = filled_downwards(to_the_end, *cells);
+            *cells &= !taken;
+            self.pieces.push(Piece { y: y as u32, word: word as u32, cells: taken });
+        }
     }
 }
