@@ -26,7 +26,7 @@ use std::ops::Range;
 
 /// There is one strip as long as there is not more than a run for so many cells: a label
 /// takes four bytes.
-const CELLS_PER_RUN: usize = 24;
+const CELLS_PER_RUN: usize = 32;
 
 /// Groups the cells of planes into frontiers, with the buffers it keeps.
 #[derive(Clone, Debug, Default)]

@@ -40,7 +40,7 @@ pub(super) struct Flood {
     /// Of each row, the words in which it has cells beside reached ones that it has not
     /// taken.
     pending: Vec<Span>,
-    /// What the row that is visited offers to those beside it, where corners connect.
+    /// The row that is visited.
     row: Vec<u64>,
     /// A row without a cell, beyond the first and the last.
     none: Vec<u64>,
@@ -133,41 +133,24 @@ impl Flood {
     #[inline(always)]
     fn visit(&mut self, open: &BitPlane, reached: &mut BitPlane, y: usize) -> (bool, bool) {
         let Self { pending, row, none, eight } = self;
-        let span = in_fours(&std::mem::replace(&mut pending[y], Span::NONE).words(), open.row_words());
-        let cells = open.row(y);
-        let (below, here, above) = reached.row_between(y);
-        let has_above = !above.is_empty();
-        // At the rim the one row stands for both.
-        let [below, above] = match [below, above] {
-            [[], []] => [&none[..]; 2],
-            [[], one] | [one, []] => [one; 2],
-            both => both,
-        };
-        if *eight {
-            take_from_corners(here, &span, [below, above], cells);
-        }
-        take_from_beside(here, &span, [below, above], cells);
-        let beside = [y.checked_sub(1), has_above.then_some(y + 1)];
-        let mut offers = beside.map(|y| Offer { open: y.map_or(none, |y| open.row(y)), taken: Span::NONE });
-        let end = fill_upwards(here, &span, cells);
-        let start = fill_downwards(here, &(span.start..end), cells, |i, word| {
-            if !*eight {
-                offers[0].look(i, word, below);
-                offers[1].look(i, word, above);
-            }
-        });
-        if *eight {
-            for i in widen(row, &(start..end), here).rev() {
-                offers[0].look(i, row[i], below);
-                offers[1].look(i, row[i], above);
-            }
-        }
+        let none = &none[..];
+        let words = std::mem::replace(&mut pending[y], Span::NONE).words();
+        let has_above = y + 1 < open.height();
+        let below = if y > 0 { reached.row(y - 1) } else { none };
+        let above = if has_above { reached.row(y + 1) } else { none };
+        let (here, cells) = (reached.row(y), open.row(y));
+        take_from_beside(row, &words, [below, here, above], cells, *eight);
+        let end = fill_upwards(row, &words, here, cells);
+        let start = fill_downwards(row, &(words.start..end), here, cells);
+        reached.row_mut(y)[start..end].copy_from_slice(&row[start..end]);
+        let filled = start..end;
+        let offered = if *eight { widen(row, &filled, reached.row(y)) } else { filled };
         let mut takes = [false; 2];
-        for (takes, (beside, offer)) in takes.iter_mut().zip(beside.into_iter().zip(offers)) {
-            if let Some(beside) = beside {
-                pending[beside].join(offer.taken);
-                *takes = !offer.taken.is_empty();
-            }
+        for (takes, y) in takes.iter_mut().zip([y.checked_sub(1), has_above.then_some(y + 1)]) {
+            let Some(y) = y else { continue };
+            let taken = taken_from(row, &offered, open.row(y), reached.row(y));
+            pending[y].join(taken);
+            *takes = !taken.is_empty();
         }
         (takes[0], takes[1])
     }
@@ -178,99 +161,79 @@ impl Flood {
     }
 }
 
-/// Some words more of a row of so many, so that there are four and four: work done on four at
-/// a time has fewer left over.
-fn in_fours(words: &Range<usize>, row_words: usize) -> Range<usize> {
-    words.start / 4 * 4..words.end.next_multiple_of(4).min(row_words)
-}
-
-/// Adds to the reached cells of a row, in a span, those that touch a reached cell of the row
-/// below or above at a corner.
+/// Writes into the span of `row` the cells that are reached or beside what is reached in
+/// the rows below and above.
 #[inline(always)]
-fn take_from_corners(here: &mut [u64], span: &Range<usize>, [below, above]: [&[u64]; 2], cells: &[u64]) {
-    let beside = |i: usize| below.get(i).copied().unwrap_or(0) | above.get(i).copied().unwrap_or(0);
-    for i in span.clone() {
-        let before = if i > 0 { beside(i - 1) } else { 0 };
-        here[i] |= (beside(i) << 1 | before >> 63 | beside(i) >> 1 | beside(i + 1) << 63) & cells[i];
+fn take_from_beside(
+    row: &mut [u64],
+    words: &Range<usize>,
+    [below, here, above]: [&[u64]; 3],
+    cells: &[u64],
+    eight: bool,
+) {
+    let Range { start, end } = *words;
+    let pairs = below[start..end].iter().zip(&above[start..end]).zip(here[start..end].iter().zip(&cells[start..end]));
+    for (target, ((below, above), (here, cells))) in row[start..end].iter_mut().zip(pairs) {
+        let beside = below | above;
+        *target = here | beside & cells;
+    }
+    if eight {
+        let beside = |i: usize| below.get(i).copied().unwrap_or(0) | above.get(i).copied().unwrap_or(0);
+        for i in start..end {
+            let before = if i > 0 { beside(i - 1) } else { 0 };
+            row[i] |= (beside(i) << 1 | before >> 63 | beside(i) >> 1 | beside(i + 1) << 63) & cells[i];
+        }
     }
 }
 
-/// Adds to the reached cells of a row, in a span, those that have a reached one below or
-/// above, and fills within each word the runs in which there are such.
+/// Fills runs of `cells` from their seeds to their last cell, from the span on as far as
+/// that leads; where it ends.
 #[inline(always)]
-fn take_from_beside(here: &mut [u64], span: &Range<usize>, [below, above]: [&[u64]; 2], cells: &[u64]) {
-    let Range { start, end } = *span;
-    let words = below[start..end].iter().zip(&above[start..end]).zip(&cells[start..end]);
-    for (here, ((below, above), &cells)) in here[start..end].iter_mut().zip(words) {
-        let seeds = *here | (below | above) & cells;
-        let to_the_end = seeds | cells & !cells.wrapping_add(seeds);
-        *here = filled_downwards(to_the_end, cells);
-    }
-}
-
-/// Fills the runs of a row on into the words after, from a span on as far as that leads; where
-/// it ends.
-#[inline(always)]
-fn fill_upwards(here: &mut [u64], span: &Range<usize>, cells: &[u64]) -> usize {
-    let Range { start, mut end } = *span;
-    // All bits if the last cell of the word before is reached.
-    let mut from_before = 0;
-    let mut fill = |here: &mut u64, cells: u64| {
-        *here |= cells & !cells.wrapping_add(1) & from_before;
-        from_before = (*here >> 63).wrapping_neg();
+fn fill_upwards(row: &mut [u64], words: &Range<usize>, here: &[u64], cells: &[u64]) -> usize {
+    let mut carry = false;
+    let mut fill = |seeds: u64, cells: u64| {
+        let (sum, over) = cells.overflowing_add(seeds);
+        let (sum, over_again) = sum.overflowing_add(u64::from(carry));
+        carry = over | over_again;
+        (seeds | cells & !sum, carry)
     };
-    for (here, &cells) in here[start..end].iter_mut().zip(&cells[start..end]) {
-        fill(here, cells);
+    let mut goes_on = false;
+    for (seeds, &cells) in row[words.clone()].iter_mut().zip(&cells[words.clone()]) {
+        (*seeds, goes_on) = fill(*seeds, cells);
     }
-    while end < here.len() && here[end - 1] >> 63 & cells[end] & !here[end] != 0 {
-        fill(&mut here[end], cells[end]);
+    let mut end = words.end;
+    while goes_on && end < row.len() {
+        (row[end], goes_on) = fill(here[end], cells[end]);
         end += 1;
     }
     end
 }
 
-/// Fills the runs of a row on into the words before, from a span on as far as that leads, and
-/// visits each word when all of it is filled; where it begins.
+/// Fills runs of `cells` from their seeds to their first cell, from the span on as far
+/// as that leads; where it begins.
 #[inline(always)]
-fn fill_downwards(here: &mut [u64], span: &Range<usize>, cells: &[u64], mut visit: impl FnMut(usize, u64)) -> usize {
-    let Range { mut start, end } = *span;
-    // All bits if the first cell of the word after is reached.
-    let mut from_next = 0;
-    let mut fill = |i: usize, here: &mut u64, cells: u64| {
-        // Nobody can guess which word has no gap: no branch.
-        let last_run = u64::MAX.checked_shl(WORD_CELLS as u32 - cells.leading_ones()).unwrap_or(0);
-        *here |= last_run & from_next;
-        from_next = (*here & 1).wrapping_neg();
-        visit(i, *here);
-    };
-    for (i, (here, &cells)) in (start..end).zip(here[start..end].iter_mut().zip(&cells[start..end])).rev() {
-        fill(i, here, cells);
+fn fill_downwards(row: &mut [u64], words: &Range<usize>, here: &[u64], cells: &[u64]) -> usize {
+    for (seeds, &cells) in row[words.clone()].iter_mut().zip(&cells[words.clone()]) {
+        *seeds = filled_downwards(*seeds, cells);
     }
-    while start > 0 && here[start] << 63 & cells[start - 1] & !here[start - 1] != 0 {
+    // All bits if the first cell of the word after is filled.
+    let mut from_next = 0;
+    let mut fill = |filled: u64, cells: u64| {
+        let gaps = !cells;
+        let last_run = if gaps == 0 { u64::MAX } else { !(u64::MAX >> gaps.leading_zeros()) };
+        let filled = filled | last_run & from_next;
+        from_next = (filled & 1).wrapping_neg();
+        filled
+    };
+    for (filled, &cells) in row[words.clone()].iter_mut().zip(&cells[words.clone()]).rev() {
+        *filled = fill(*filled, cells);
+    }
+    let mut start = words.start;
+    while start > 0 && row[start] << 63 & cells[start - 1] & !here[start - 1] != 0 {
         start -= 1;
-        fill(start, &mut here[start], cells[start]);
+        row[start] = fill(here[start], cells[start]);
     }
     start
-}
-
-/// What a row offers to one beside it.
-struct Offer<'a> {
-    /// The cells of that row.
-    open: &'a [u64],
-    /// The words in which it has something to take.
-    taken: Span,
-}
-
-impl Offer<'_> {
-    /// Looks at a word, each before those with smaller places.
-    #[inline(always)]
-    fn look(&mut self, i: usize, word: u64, reached: &[u64]) {
-        let takes = word & self.open[i] & !reached[i] != 0;
-        let i = i as u32;
-        // Nobody can guess which words these are: no branch.
-        self.taken.start = if takes { i } else { self.taken.start };
-        self.taken.end = self.taken.end.max(if takes { i + 1 } else { 0 });
-    }
 }
 
 /// The runs of `cells` from their first cell to the last of their seeds.
@@ -285,14 +248,34 @@ pub(super) const fn filled_downwards(mut seeds: u64, mut cells: u64) -> u64 {
     seeds
 }
 
-/// Writes to `row` the reached cells of a span and those to their left and right, one word
-/// wider than what is filled.
+/// The words of a row beside this one in which it has something to take from it.
+#[inline(always)]
+fn taken_from(row: &[u64], words: &Range<usize>, open: &[u64], reached: &[u64]) -> Span {
+    let taken = || {
+        row[words.clone()].iter().zip(&open[words.clone()]).zip(&reached[words.clone()]).map(|((a, b), c)| a & b & !c)
+    };
+    // To look at all, four at a time, is faster than to look for the first.
+    if taken().fold(0, |any, word| any | word) == 0 {
+        return Span::NONE;
+    }
+    let mut takes = taken().map(|word| word != 0);
+    let Some(first) = takes.position(|takes| takes) else { return Span::NONE };
+    let start = words.start + first;
+    Span::of(&(start..start + 1 + takes.rposition(|takes| takes).map_or(0, |after| after + 1)))
+}
+
+/// Adds the cells to the left and right within a span, one word wider than what is filled.
 #[inline(always)]
 fn widen(row: &mut [u64], filled: &Range<usize>, here: &[u64]) -> Range<usize> {
-    let wider = filled.start.saturating_sub(1)..(filled.end + 1).min(here.len());
-    let at = |i: usize| here.get(i).copied().unwrap_or(0);
+    let wider = filled.start.saturating_sub(1)..(filled.end + 1).min(row.len());
+    row[wider.start..filled.start].copy_from_slice(&here[wider.start..filled.start]);
+    row[filled.end..wider.end].copy_from_slice(&here[filled.end..wider.end]);
+    let mut before = 0;
     for i in wider.clone() {
-        row[i] = at(i.wrapping_sub(1)) >> 63 | at(i) << 1 | at(i) | at(i) >> 1 | at(i + 1) << 63;
+        let word = row[i];
+        let after = if i + 1 < wider.end { row[i + 1] } else { 0 };
+        row[i] |= word << 1 | before >> 63 | word >> 1 | after << 63;
+        before = word;
     }
     wider
 }

@@ -16,7 +16,9 @@ use super::regroup::Regroup;
 use super::shifts::neighbours_of_row;
 use super::spans::{Span, Spans};
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
-use crate::grid::{BitPlane, BitPlanes, BitWork, Cell, CellRect, GridInfo, Neighbourhood, with_bit_instructions};
+use crate::grid::{
+    BitPlane, BitPlanes, BitWork, Cell, CellRect, GridInfo, Neighbourhood, touch, with_bit_instructions,
+};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -217,6 +219,9 @@ impl Incremental {
         self.reach_changed.clear();
         let Self { stale, row, frontier, regroup, .. } = self;
         let (reached, unknown) = (self.reach.plane(), self.planes.unknown());
+        for plane in [unknown, frontier] {
+            touch(stale.iter().map(|(y, span)| &plane.row(y)[span.words()]));
+        }
         with_bit_instructions(FindCells { reached, unknown, beside, stale, row, frontier, regroup });
         self.stale.clear();
     }

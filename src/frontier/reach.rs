@@ -1,13 +1,15 @@
 //! What is connected to a seed in a plane that changes here and there.
 
 mod labelled;
+mod nodes;
 
 use super::joins::Joins;
-use super::spans::{Span, Spans};
+use super::spans::Spans;
 use super::tiles::{Tile, Tiling};
-use super::union_find::{root_of, unite};
-use crate::grid::{BitPlane, Cell, Neighbourhood};
+use crate::grid::{BitPlane, Cell, Neighbourhood, touch};
 use labelled::LabelledTiles;
+use nodes::{Nodes, Tiles};
+use std::ops::Range;
 
 /// The connections of a plane and what of it is reached.
 #[derive(Clone, Debug)]
@@ -23,16 +25,14 @@ pub(super) struct Reach {
     dirty: Vec<bool>,
     /// Of each tile whether its reached cells include a component within its rim.
     has_inner: Vec<bool>,
-    /// The index of each tile's first node among all.
-    first_node: Vec<u32>,
-    parents: Vec<u32>,
+    nodes: Nodes,
     /// Of all nodes, whether they are reached: now, and when last written.
     reached: Vec<bool>,
     written: Vec<bool>,
-    /// The index of each tile's first node in `written`.
-    first_written: Vec<u32>,
     plane: BitPlane,
     labelled: LabelledTiles,
+    /// Tiles that are written.
+    stale: Vec<usize>,
     /// Components within a rim that hold a seed.
     inner: Vec<(usize, u32)>,
 }
@@ -48,13 +48,12 @@ impl Reach {
             joins: Joins::default(),
             dirty: Vec::new(),
             has_inner: Vec::new(),
-            first_node: Vec::new(),
-            parents: Vec::new(),
+            nodes: Nodes::default(),
             reached: Vec::new(),
             written: Vec::new(),
-            first_written: Vec::new(),
             plane: BitPlane::default(),
             labelled: LabelledTiles::default(),
+            stale: Vec::new(),
             inner: Vec::new(),
         }
     }
@@ -77,8 +76,7 @@ impl Reach {
         self.dirty.resize(count, true);
         self.has_inner.clear();
         self.has_inner.resize(count, false);
-        self.first_written.clear();
-        self.first_written.resize(count + 1, 0);
+        self.nodes.reset(count);
         self.written.clear();
     }
 
@@ -94,24 +92,50 @@ impl Reach {
         self.labelled.forget(&self.dirty);
         self.label_rims(plane);
         self.join_tiles(plane);
-        self.connect();
+        let Self { tiling, tiles, joins, neighbourhood, .. } = self;
+        self.nodes.connect(
+            &self.node_counts,
+            Tiles { tiling, tiles, joins, neighbourhood: *neighbourhood },
+            &self.dirty,
+        );
         self.mark_reached(plane, seeds);
-        for tile in 0..self.tiles.len() {
-            let inner = self.inner.iter().any(|&(of, _)| of == tile);
-            let nodes = self.first_node[tile] as usize..self.first_node[tile + 1] as usize;
-            let written = self.first_written[tile] as usize..self.first_written[tile + 1] as usize;
-            let same = self.reached[nodes] == self.written[written];
-            if !same || self.dirty[tile] || inner || self.has_inner[tile] {
-                self.write(plane, tile, inner, changed);
-            }
-            self.has_inner[tile] = inner;
+        self.list_stale();
+        for plane in [plane, &self.plane] {
+            touch_tiles(plane, &self.tiling, self.stale.iter().copied());
+        }
+        for index in 0..self.stale.len() {
+            self.write(plane, self.stale[index], changed);
         }
         self.dirty.fill(false);
         std::mem::swap(&mut self.reached, &mut self.written);
-        std::mem::swap(&mut self.first_node, &mut self.first_written);
+    }
+
+    /// Whether other nodes of tiles that did not change are reached than before, or a
+    /// component within a rim was.
+    fn has_other_reach(&self, tiles: &Range<usize>) -> bool {
+        self.reached[self.nodes.of(tiles)] != self.written[self.nodes.before(tiles)]
+            || self.has_inner[tiles.clone()].contains(&true)
+    }
+
+    /// Lists the tiles whose reached cells may be others than before.
+    fn list_stale(&mut self) {
+        let mut stale = std::mem::take(&mut self.stale);
+        stale.clear();
+        for block in self.tiling.blocks() {
+            let is_seeded = |tile: usize| self.inner.iter().any(|&(of, _)| of == tile);
+            if self.dirty[block.clone()].contains(&true) || block.clone().any(is_seeded) || self.has_other_reach(&block)
+            {
+                let is_stale = |tile| self.dirty[tile] || is_seeded(tile) || self.has_other_reach(&(tile..tile + 1));
+                stale.extend(block.filter(|&tile| is_stale(tile)));
+            }
+        }
+        self.stale = stale;
+        self.has_inner.fill(false);
+        self.inner.iter().for_each(|&(tile, _)| self.has_inner[tile] = true);
     }
 
     fn label_rims(&mut self, plane: &BitPlane) {
+        touch_tiles(plane, &self.tiling, (0..self.tiles.len()).filter(|&tile| self.dirty[tile]));
         for tile in 0..self.tiles.len() {
             if self.dirty[tile] {
                 self.labelled.of((tile, &mut self.tiles[tile]), plane, &self.tiling, self.neighbourhood);
@@ -144,48 +168,11 @@ impl Reach {
         });
     }
 
-    /// Unites all nodes that touch.
-    fn connect(&mut self) {
-        let Self { tiles, tiling, node_counts, joins, first_node, parents, .. } = self;
-        first_node.clear();
-        first_node.push(0);
-        let mut count = 0;
-        for &nodes in &*node_counts {
-            count += u32::from(nodes);
-            first_node.push(count);
-        }
-        parents.clear();
-        parents.extend(0..count);
-        for beside in tiling.later_neighbours() {
-            let mut join = |other: usize, [a, b]: [u16; 2]| {
-                unite(parents, first_node[beside.tile] + u32::from(a), first_node[other] + u32::from(b));
-            };
-            if let Some(right) = beside.right {
-                joins.list(2 * beside.tile).iter().for_each(|&nodes| join(right, nodes));
-            }
-            if let Some(above) = beside.above {
-                joins.list(2 * beside.tile + 1).iter().for_each(|&nodes| join(above, nodes));
-            }
-            if self.neighbourhood == Neighbourhood::Eight {
-                for (corner, joined) in [
-                    (beside.above_right, Tile::joined_at_right_corner as fn(&Tile, &Tile) -> _),
-                    (beside.above_left, Tile::joined_at_left_corner),
-                ] {
-                    let tile = &tiles[beside.tile];
-                    if let Some((corner, nodes)) = corner.and_then(|c| joined(tile, &tiles[c]).map(|nodes| (c, nodes)))
-                    {
-                        join(corner, nodes);
-                    }
-                }
-            }
-        }
-    }
-
     /// Marks the nodes that are connected to a seed, and notes the seeds within rims.
     fn mark_reached(&mut self, plane: &BitPlane, seeds: &[Cell]) {
         self.inner.clear();
         self.reached.clear();
-        self.reached.resize(self.parents.len(), false);
+        self.reached.resize(self.nodes.len(), false);
         for &seed in seeds.iter().filter(|&&seed| plane.contains(seed)) {
             let tile = self.tiling.at(seed.y as usize, seed.x as usize / crate::grid::WORD_CELLS);
             let labelled = self.labelled.of((tile, &mut self.tiles[tile]), plane, &self.tiling, self.neighbourhood);
@@ -194,30 +181,26 @@ impl Reach {
             match labelled.node_of(component) {
                 None => self.inner.push((tile, component)),
                 Some(node) => {
-                    let root = root_of(&mut self.parents, self.first_node[tile] + u32::from(node));
-                    self.reached[root as usize] = true;
+                    let root = self.nodes.root(tile, node);
+                    self.reached[root] = true;
                 }
             }
         }
-        // A parent comes before its children, and so knows its root's answer already.
-        for node in 0..self.parents.len() {
-            self.reached[node] = self.reached[self.parents[node] as usize];
-        }
+        self.nodes.spread(&mut self.reached);
     }
 
-    /// Writes the reached cells of a tile, which has a seed within its rim or not.
-    fn write(&mut self, plane: &BitPlane, tile: usize, is_seeded: bool, changed: &mut Spans) {
+    /// Writes the reached cells of a tile.
+    fn write(&mut self, plane: &BitPlane, tile: usize, changed: &mut Spans) {
         let window = self.tiling.window(tile);
-        let reached = &self.reached[self.first_node[tile] as usize..self.first_node[tile + 1] as usize];
+        let reached = &self.reached[self.nodes.of(&(tile..tile + 1))];
+        changed.expect(&window.rows);
         let mut write = |y: usize, i: usize, word: u64| {
             let target = &mut self.plane.row_mut(y)[i];
-            if *target != word {
-                *target = word;
-                changed.add(y, Span::of(&(i..i + 1)));
-            }
+            changed.add_if(y, i, *target != word);
+            *target = word;
         };
         let is_mixed = reached.contains(&true) && reached.contains(&false);
-        if !(self.tiles[tile].has_islands || is_seeded || is_mixed) {
+        if !(self.tiles[tile].has_islands || is_mixed) {
             // All or nothing: no need to know which cell is whose.
             let all = if reached.contains(&true) { u64::MAX } else { 0 };
             for y in window.rows.clone() {
@@ -237,7 +220,6 @@ impl Reach {
 
     /// What all this takes in memory, bytes.
     pub fn memory_bytes(&self) -> usize {
-        let nodes = (self.parents.capacity() + self.first_node.capacity() + self.first_written.capacity()) * 4;
         let flags = self.dirty.capacity() + self.has_inner.capacity();
         self.plane.memory_bytes()
             + self.labelled.memory_bytes()
@@ -245,12 +227,19 @@ impl Reach {
             + self.tiles.iter().map(Tile::memory_bytes).sum::<usize>()
             + self.node_counts.capacity() * size_of::<u16>()
             + self.joins.memory_bytes()
-            + nodes
+            + self.nodes.memory_bytes()
             + flags
             + self.reached.capacity()
             + self.written.capacity()
+            + self.stale.capacity() * size_of::<usize>()
             + self.inner.capacity() * size_of::<(usize, u32)>()
     }
+}
+
+/// Has the words of tiles at hand.
+fn touch_tiles(plane: &BitPlane, tiling: &Tiling, tiles: impl Iterator<Item = usize>) {
+    let windows = tiles.map(|tile| tiling.window(tile));
+    touch(windows.flat_map(|window| window.rows.clone().map(move |y| &plane.row(y)[window.words.clone()])));
 }
 
 #[cfg(test)]

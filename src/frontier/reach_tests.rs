@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::frontier::labels::Labels;
+use crate::frontier::spans::Span;
 use crate::frontier::window::Window;
 use proptest::prelude::*;
 

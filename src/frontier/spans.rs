@@ -68,7 +68,25 @@ impl Spans {
             return;
         }
         self.spans[y].join(span);
-        self.rows = if self.rows.is_empty() { y..y + 1 } else { self.rows.start.min(y)..self.rows.end.max(y + 1) };
+        self.expect(&(y..y + 1));
+    }
+
+    /// Tells that words of these rows may be added by [`Self::add_if`].
+    pub fn expect(&mut self, rows: &Range<usize>) {
+        self.rows = if self.rows.is_empty() {
+            rows.clone()
+        } else {
+            self.rows.start.min(rows.start)..self.rows.end.max(rows.end)
+        };
+    }
+
+    /// Adds a word of a row that is expected, or not: nobody can guess which, so there is no
+    /// branch.
+    #[inline(always)]
+    pub fn add_if(&mut self, y: usize, word: usize, is_added: bool) {
+        let Span { start, end } = self.spans[y];
+        let (word_start, word_end) = if is_added { (word as u32, word as u32 + 1) } else { (u32::MAX, 0) };
+        self.spans[y] = Span { start: start.min(word_start), end: end.max(word_end) };
     }
 
     /// Adds words of a row, and those around them in it, below and above.

@@ -11,11 +11,14 @@ use super::joins::Pair;
 use super::labels::Labels;
 use super::window::Window;
 use crate::grid::{BitPlane, Neighbourhood};
+use std::ops::Range;
 
 /// Words in a row of a tile.
 const TILE_WORDS: usize = 4;
 /// Rows of a tile.
 const TILE_ROWS: usize = 64;
+/// Rows of tiles in a block; the planes of the tests are small.
+const BLOCK_ROWS: usize = if cfg!(test) { 2 } else { 4 };
 /// No node: the cell is not set, or its component does not touch the rim.
 pub(super) const NONE: u16 = u16::MAX;
 
@@ -58,21 +61,27 @@ impl Tiling {
         }
     }
 
-    /// All tiles in order, each with those beside it that come later.
-    pub fn later_neighbours(self) -> impl Iterator<Item = LaterNeighbours> {
-        let index = move |row: usize, column: usize| row * self.columns + column;
-        (0..self.rows).flat_map(move |row| {
-            (0..self.columns).map(move |column| {
-                let (has_right, has_above) = (column + 1 < self.columns, row + 1 < self.rows);
-                LaterNeighbours {
-                    tile: index(row, column),
-                    right: has_right.then(|| index(row, column + 1)),
-                    above: has_above.then(|| index(row + 1, column)),
-                    above_left: (has_above && column > 0).then(|| index(row + 1, column - 1)),
-                    above_right: (has_above && has_right).then(|| index(row + 1, column + 1)),
-                }
-            })
-        })
+    /// The tiles beside one that come later in the order of rows.
+    pub const fn later_neighbours(&self, tile: usize) -> LaterNeighbours {
+        let (column, above) = (tile % self.columns, tile + self.columns);
+        let (has_left, has_right, has_above) = (column > 0, column + 1 < self.columns, above < self.len());
+        LaterNeighbours {
+            right: if has_right { Some(tile + 1) } else { None },
+            above: if has_above { Some(above) } else { None },
+            above_left: if has_above && has_left { Some(above - 1) } else { None },
+            above_right: if has_above && has_right { Some(above + 1) } else { None },
+        }
+    }
+
+    /// The tiles in blocks of some rows of them each.
+    pub fn blocks(self) -> impl Iterator<Item = Range<usize>> {
+        let tiles = BLOCK_ROWS * self.columns;
+        (0..self.len()).step_by(tiles.max(1)).map(move |start| start..(start + tiles).min(self.len()))
+    }
+
+    /// The tiles of a block that lie beside the next.
+    pub const fn last_row(&self, block: &Range<usize>) -> Range<usize> {
+        block.end - self.columns..block.end
     }
 
     /// The tile a number of columns and rows on, if there is one.
@@ -83,11 +92,9 @@ impl Tiling {
     }
 }
 
-/// A tile and those beside it that come later in the order of rows.
+/// The tiles beside one that come later in the order of rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LaterNeighbours {
-    /// The tile itself.
-    pub tile: usize,
     /// The one after it.
     pub right: Option<usize>,
     /// The one above it.

@@ -96,16 +96,6 @@ impl BitPlane {
         &mut self.words[y * self.row_words..][..self.row_words]
     }
 
-    /// Row `y` for writing, as [`Self::row_mut`] has it, between the one below it and the one
-    /// above, which are empty if there is none.
-    #[must_use]
-    pub fn row_between(&mut self, y: usize) -> (&[u64], &mut [u64], &[u64]) {
-        let (before, rest) = self.words.split_at_mut(y * self.row_words);
-        let (row, after) = rest.split_at_mut(self.row_words);
-        let below = before.len().checked_sub(self.row_words).map_or(&[][..], |start| &before[start..]);
-        (below, row, after.get(..self.row_words).unwrap_or_default())
-    }
-
     /// All words, row after row.
     #[must_use]
     pub fn words(&self) -> &[u64] {

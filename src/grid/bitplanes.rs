@@ -2,8 +2,12 @@
 //!
 //! O(cells); nothing is allocated while the size stays the same.
 
-use super::{BitPlane, Classifier, GridInfo, OccupancyGrid, Thresholds, WORD_CELLS};
+use super::{BitPlane, Classifier, GridInfo, OccupancyGrid, Thresholds, WORD_CELLS, touch};
 use std::ops::Range;
+
+/// The memory of so many cells is asked for before it is needed; that of more comes by itself,
+/// as it is read from beginning to end.
+const MOST_TOUCHED: usize = 1 << 18;
 
 /// An occupancy grid as planes. Each cell is in exactly one of three, of which two are
 /// kept: what is neither free nor unknown is occupied.
@@ -59,6 +63,12 @@ impl BitPlanes {
         self.row_free.resize(words.len(), 0);
         self.row_unknown.resize(words.len(), 0);
         let columns = words.start * WORD_CELLS..width.min(words.end * WORD_CELLS);
+        if columns.len() * rows.len() <= MOST_TOUCHED {
+            touch(rows.clone().filter_map(|y| grid.data().get(y * width + columns.start..y * width + columns.end)));
+            for plane in [&self.free, &self.unknown] {
+                touch(rows.clone().map(|y| &plane.row(y)[words.clone()]));
+            }
+        }
         for y in rows {
             let Some(cells) = grid.data().get(y * width..(y + 1) * width).and_then(|row| row.get(columns.clone()))
             else {

@@ -20,6 +20,7 @@ mod rect;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 mod state;
+mod touch;
 mod vertical;
 
 pub use bitplane::{BitPlane, BitWork, WORD_CELLS, with_bit_instructions};
@@ -33,3 +34,4 @@ pub use patch::{GridPatch, GridPatchError};
 pub use raytrace::{Traversal, traverse};
 pub use rect::CellRect;
 pub use state::{CellState, ThresholdError, Thresholds};
+pub use touch::touch;
