@@ -5,7 +5,7 @@ use super::Row;
 /// The head of the lines.
 pub fn header() -> String {
     format!(
-        "{:>8} {:>5} {:>9} | {:>10} {:>10} {:>10} {:>9} {:>9} | {:>9} {:>9} {:>9} {:>9} | bytes a cell",
+        "{:>8} {:>5} {:>9} | {:>8} {:>9} {:>8} {:>7} {:>7} {:>7} | {:>8} {:>9} {:>9} {:>6} {:>9} | bytes a cell",
         "scene",
         "size",
         "frontiers",
@@ -13,33 +13,36 @@ pub fn header() -> String {
         "textbook",
         "bitplane",
         "patch",
+        "again",
         "resent",
         "bitplane/",
         "textbook/",
         "bitplane/",
+        "again",
         "(resent -",
     ) + &format!(
-        "\n{:>24} | {:>10} {:>10} {:>10} {:>9} {:>9} | {:>9} {:>9} {:>9} {:>9} | scratch kept",
-        "", "ms", "ms", "ms", "ms", "ms", "byte sum", "bitplane", "patch", "patch)/sum",
+        "\n{:>24} | {:>8} {:>9} {:>8} {:>7} {:>7} {:>7} | {:>9} {:>9} {:>9} {:>6} {:>9} | scratch kept",
+        "", "ms", "ms", "ms", "ms", "ms", "ms", "byte sum", "bitplane", "patch", "", "patch)/sum",
     )
 }
 
-/// The four ratios of a scene.
-fn ratios(row: &Row) -> [f64; 4] {
+/// The ratios of a scene.
+fn ratios(row: &Row) -> [f64; 5] {
     [
         row.bitplane_ms / row.byte_sum_ms,
         row.textbook_ms / row.bitplane_ms,
         row.bitplane_ms / row.patch_ms,
+        row.bitplane_ms / row.patch_again_ms,
         (row.resent_ms - row.patch_ms) / row.byte_sum_ms,
     ]
 }
 
 /// One scene.
 pub fn line(row: &Row) -> String {
-    let [sums, textbook, patch, resent] = ratios(row);
+    let [sums, textbook, patch, again, resent] = ratios(row);
     format!(
-        "{:>8} {:>5} {:>9} | {:>10.3} {:>10.3} {:>10.3} {:>9.3} {:>9.3} | {sums:>9.2} {textbook:>9.1} {patch:>9.1} \
-         {resent:>9.2} | {:>7.2} {:>4.2}",
+        "{:>8} {:>5} {:>9} | {:>8.3} {:>9.3} {:>8.3} {:>7.3} {:>7.3} {:>7.3} | {sums:>9.2} {textbook:>9.1} \
+         {patch:>9.1} {again:>6.1} {resent:>9.2} | {:>7.2} {:>4.2}",
         row.scene,
         row.size,
         row.frontiers,
@@ -47,29 +50,28 @@ pub fn line(row: &Row) -> String {
         row.textbook_ms,
         row.bitplane_ms,
         row.patch_ms,
+        row.patch_again_ms,
         row.resent_ms,
         row.memory[0],
         row.memory[1],
     )
 }
 
+/// A number with the digits that mean something.
+fn short(value: f64) -> String {
+    let digits = (1 - value.abs().max(1e-3).log10().floor() as i32).clamp(0, 3) as usize;
+    format!("{value:.digits$}")
+}
+
 /// All scenes, for a document.
 pub fn markdown(rows: &[Row]) -> String {
-    let head = "| scene | edge, cells | frontiers | byte sum, ms | textbook, ms | bitplane, ms | patch, ms | resent, ms \
-                | bitplane / byte sum | textbook / bitplane | bitplane / patch |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    let head = "| scene | edge, cells | byte sum | textbook | bitplane | patch | again | resent | state |\n\
+                |---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     let line = |row: &Row| {
-        let [sums, textbook, patch, _] = ratios(row);
-        format!(
-            "| {} | {} | {} | {:.3} | {:.3} | {:.3} | {:.3} | {:.3} | {sums:.1} | {textbook:.0} | {patch:.0} |\n",
-            row.scene,
-            row.size,
-            row.frontiers,
-            row.byte_sum_ms,
-            row.textbook_ms,
-            row.bitplane_ms,
-            row.patch_ms,
-            row.resent_ms,
-        )
+        let times =
+            [row.byte_sum_ms, row.textbook_ms, row.bitplane_ms, row.patch_ms, row.patch_again_ms, row.resent_ms];
+        let times = times.map(short).join(" | ");
+        format!("| {} | {} | {times} | {:.2}, {:.2} |\n", row.scene, row.size, row.memory[0], row.memory[1])
     };
     rows.iter().map(line).fold(head.to_owned(), |all, line| all + &line)
 }

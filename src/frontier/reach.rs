@@ -110,28 +110,22 @@ impl Reach {
         std::mem::swap(&mut self.reached, &mut self.written);
     }
 
-    /// Whether other nodes of tiles that did not change are reached than before, or a
-    /// component within a rim was.
-    fn has_other_reach(&self, tiles: &Range<usize>) -> bool {
-        self.reached[self.nodes.of(tiles)] != self.written[self.nodes.before(tiles)]
-            || self.has_inner[tiles.clone()].contains(&true)
-    }
-
     /// Lists the tiles whose reached cells may be others than before.
     fn list_stale(&mut self) {
-        let mut stale = std::mem::take(&mut self.stale);
+        let Self { tiling, dirty, has_inner, nodes, reached, written, stale, inner, .. } = self;
+        // Those with a seed within their rims now, and those that had one.
+        inner.iter().for_each(|&(tile, _)| has_inner[tile] = true);
+        let is_stale = |tiles: &Range<usize>| {
+            dirty[tiles.clone()].contains(&true)
+                || has_inner[tiles.clone()].contains(&true)
+                || reached[nodes.of(tiles)] != written[nodes.before(tiles)]
+        };
         stale.clear();
-        for block in self.tiling.blocks() {
-            let is_seeded = |tile: usize| self.inner.iter().any(|&(of, _)| of == tile);
-            if self.dirty[block.clone()].contains(&true) || block.clone().any(is_seeded) || self.has_other_reach(&block)
-            {
-                let is_stale = |tile| self.dirty[tile] || is_seeded(tile) || self.has_other_reach(&(tile..tile + 1));
-                stale.extend(block.filter(|&tile| is_stale(tile)));
-            }
+        for block in tiling.blocks().filter(is_stale) {
+            stale.extend(block.filter(|&tile| is_stale(&(tile..tile + 1))));
         }
-        self.stale = stale;
-        self.has_inner.fill(false);
-        self.inner.iter().for_each(|&(tile, _)| self.has_inner[tile] = true);
+        has_inner.fill(false);
+        inner.iter().for_each(|&(tile, _)| has_inner[tile] = true);
     }
 
     fn label_rims(&mut self, plane: &BitPlane) {

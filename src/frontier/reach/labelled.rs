@@ -34,7 +34,7 @@ pub(super) struct LabelledTiles {
 
 /// One in so many tiles is kept, so that the labels take little beside the planes. The planes
 /// of the tests are small.
-const TILES_FOR_EACH: usize = if cfg!(test) { 2 } else { 64 };
+const TILES_FOR_EACH: usize = if cfg!(test) { 2 } else { 32 };
 
 impl LabelledTiles {
     /// Forgets all, and makes room for those of a plane.
@@ -59,8 +59,9 @@ impl LabelledTiles {
         tiling: &Tiling,
         neighbourhood: Neighbourhood,
     ) -> &Labelled {
-        let place = self.tiles.iter().position(|labelled| labelled.tile == Some(index)).unwrap_or_else(|| {
-            let place = self.next;
+        let place_of = |this: &Self, tile| this.tiles.iter().position(|labelled| labelled.tile == tile);
+        let place = place_of(self, Some(index)).unwrap_or_else(|| {
+            let place = place_of(self, None).unwrap_or(self.next);
             self.next = (place + 1) % self.tiles.len();
             let Labelled { tile: known, labels, nodes } = &mut self.tiles[place];
             let window = tiling.window(index);
