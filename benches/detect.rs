@@ -98,7 +98,7 @@ fn main() {
     });
     let mut rows = Vec::new();
     for &size in &options.sizes {
-        for name in ["office", "other", "noise", "shut-in", "empty"] {
+        for name in ["office", "other", "noise", "shut-in", "maze", "empty"] {
             if !options.scenes.is_empty() && !options.scenes.iter().any(|wanted| wanted == name) {
                 continue;
             }
@@ -110,6 +110,7 @@ fn main() {
                 },
                 "noise" => scenes::salt_and_pepper(name, size, 70),
                 "shut-in" => scenes::salt_and_pepper(name, size, 33),
+                "maze" => scenes::maze(size),
                 _ => scenes::empty(size),
             };
             let row = measure(&scene, size);

@@ -20,7 +20,7 @@ fn office(size: u32) -> Scene {
 /// The scenes, each with another map that differs in a patch.
 fn maps() -> Vec<(Scene, OccupancyGrid)> {
     let noise = [("shut-in", 33), ("noise", 70)].map(|(name, free)| scenes::salt_and_pepper(name, 1000, free));
-    let scenes = [office(1000), scenes::empty(1000)].into_iter().chain(noise);
+    let scenes = [office(1000), scenes::empty(1000), scenes::maze(1000)].into_iter().chain(noise);
     let with_patch = |scene: Scene| {
         let mut changed = scene.grid.clone();
         for (dx, dy) in [(40, 0), (-60, 30), (20, 70)] {

@@ -72,6 +72,24 @@ pub fn salt_and_pepper(name: &'static str, size: u32, free_percent: u32) -> Scen
     scene(name, grid, robot)
 }
 
+/// One way as wide as a cell, up and down between walls as thick as a cell; unknown below and
+/// above it.
+pub fn maze(size: u32) -> Scene {
+    let mut grid = empty_grid(size, OccupancyGrid::FREE);
+    let last = size as i32 - 1;
+    for index in 0..grid.info().len() {
+        let Cell { x, y } = grid.info().cell(index);
+        let gap = if x % 4 == 1 { 1 } else { last - 1 };
+        if y == 0 || y == last {
+            grid.data_mut()[index] = OccupancyGrid::UNKNOWN;
+        } else if x % 2 == 1 && y != gap {
+            grid.data_mut()[index] = OccupancyGrid::OCCUPIED;
+        }
+    }
+    let robot = centre(&grid);
+    scene("maze", grid, robot)
+}
+
 /// A floor beside itself again and again, with ways from one to the next and three
 /// patches of unknown on each.
 pub fn tiled(name: &'static str, floor: &OccupancyGrid, size: u32) -> Scene {

@@ -13,12 +13,10 @@
 //! the map stays the same and its runs do not become more.
 
 use super::clusters::Clusters;
-use super::flood::Flood;
+use super::connected::Connected;
 use super::found::FrontierCells;
-use super::labels::Labels;
 use super::pocket::Pocket;
 use super::shifts::neighbours_of_row;
-use super::window::Window;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{BitPlane, BitPlanes, BitWork, Cell, Neighbourhood, with_bit_instructions};
 use std::sync::Arc;
@@ -31,8 +29,7 @@ pub struct Bitplane {
     /// The cells that the search walks on.
     entered: BitPlane,
     pocket: Pocket,
-    flood: Flood,
-    labels: Labels,
+    connected: Connected,
     clusters: Clusters,
     found: Arc<FrontierCells>,
     /// A row of neighbours.
@@ -48,8 +45,7 @@ impl Bitplane {
             planes: BitPlanes::default(),
             entered: BitPlane::default(),
             pocket: Pocket::default(),
-            flood: Flood::default(),
-            labels: Labels::default(),
+            connected: Connected::by(params.search_neighbours()),
             clusters: Clusters::default(),
             found: Arc::default(),
             row: Vec::new(),
@@ -86,8 +82,7 @@ impl Bitplane {
         self.planes.memory_bytes()
             + self.entered.memory_bytes()
             + self.pocket.memory_bytes()
-            + self.flood.memory_bytes()
-            + self.labels.memory_bytes()
+            + self.connected.memory_bytes()
             + self.clusters.memory_bytes()
             + self.row.capacity() * size_of::<u64>()
     }
@@ -95,9 +90,9 @@ impl Bitplane {
     /// Frontier cells where walls block: unknown beside free space connected to the seed.
     /// They take the place of the unknown cells.
     fn mark_where_walls_block(&mut self, seed: Cell) {
-        let Self { params, planes, entered, flood, labels, row, .. } = self;
+        let Self { params, planes, entered, connected, row, .. } = self;
         let (free, unknown) = planes.both_mut();
-        connected_to(seed, free, Neighbourhood::Four, entered, flood, labels);
+        connected.find(free, seed, entered);
         row.resize(unknown.row_words(), 0);
         with_bit_instructions(KeepBeside { plane: unknown, source: entered, neighbours: params.neighbours, row });
     }
@@ -105,7 +100,7 @@ impl Bitplane {
     /// Frontier cells by the paper's line 27: the search walks over all that has a free
     /// neighbour, and over the seed. They take the place of the unknown cells.
     fn mark_as_the_textbook(&mut self, seed: Cell) {
-        let Self { params, planes, entered, flood, labels, .. } = self;
+        let Self { params, planes, entered, connected, .. } = self;
         let (free, unknown) = planes.both_mut();
         entered.resize(free.width(), free.height());
         for y in 0..free.height() {
@@ -113,7 +108,7 @@ impl Bitplane {
         }
         entered.insert(seed);
         // The free cells have served, and what is walked over takes their place.
-        connected_to(seed, entered, params.neighbours, free, flood, labels);
+        connected.find(entered, seed, free);
         unknown.intersect(free);
     }
 }
@@ -139,23 +134,6 @@ impl BitWork for KeepBeside<'_> {
                 *word &= beside;
             }
         }
-    }
-}
-
-/// Finds the cells of `open` that are connected to a seed among them.
-pub(super) fn connected_to(
-    seed: Cell,
-    open: &BitPlane,
-    neighbourhood: Neighbourhood,
-    reached: &mut BitPlane,
-    flood: &mut Flood,
-    labels: &mut Labels,
-) {
-    if flood.fill(open, neighbourhood, seed, reached).is_none() {
-        let all = Window::of(open);
-        labels.label(open, &all, neighbourhood);
-        let kept = labels.component_at(open, &all, seed);
-        labels.select(open, &all, |c| Some(c) == kept, |y, i, word| reached.row_mut(y)[i] = word);
     }
 }
 

@@ -2,8 +2,7 @@
 //! open, what is beside it, and what is connected. O(cells / 64 + runs) after the grid
 //! has been packed.
 
-use super::bitplane::connected_to;
-use super::flood::Flood;
+use super::connected::Connected;
 use super::labels::Labels;
 use super::runs::{Run, runs_of};
 use super::shifts::neighbours_of_row;
@@ -32,8 +31,7 @@ impl Territory {
             Reachability::Textbook => planes.free().clone(),
             Reachability::WallsBlock => {
                 let mut open = BitPlane::default();
-                let (mut flood, mut labels) = (Flood::default(), Labels::default());
-                connected_to(seed, planes.free(), Neighbourhood::Four, &mut open, &mut flood, &mut labels);
+                Connected::by(params.search_neighbours()).find(planes.free(), seed, &mut open);
                 open
             }
         };

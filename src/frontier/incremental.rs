@@ -33,8 +33,6 @@ pub struct Incremental {
     frontier: BitPlane,
     /// Words of the map that changed.
     changed: Spans,
-    /// Words in which other cells are reached than before.
-    reach_changed: Spans,
     /// Words of which the frontier cells are to be found again.
     stale: Spans,
     /// Words with other frontier cells than before.
@@ -53,18 +51,13 @@ impl Incremental {
     /// A detector with these parameters that has seen no map.
     #[must_use]
     pub fn new(params: DetectorParams) -> Self {
-        let connected_by = match params.reachability {
-            Reachability::WallsBlock => Neighbourhood::Four,
-            Reachability::Textbook => params.neighbours,
-        };
         Self {
             params,
             planes: BitPlanes::default(),
             open: BitPlane::default(),
-            reach: Reach::new(connected_by),
+            reach: Reach::new(params.search_neighbours()),
             frontier: BitPlane::default(),
             changed: Spans::default(),
-            reach_changed: Spans::default(),
             stale: Spans::default(),
             regroup: Spans::default(),
             min_cells: None,
@@ -97,7 +90,7 @@ impl Incremental {
             Reachability::WallsBlock => self.planes.free(),
             Reachability::Textbook => &self.open,
         };
-        self.reach.update(plane, &self.seeds, &mut self.reach_changed);
+        self.reach.update(plane, &self.seeds);
         self.find_frontier_cells();
         let min_cells = self.params.min_cells(info);
         let (frontier, neighbours) = (&mut self.frontier, self.params.neighbours);
@@ -122,10 +115,7 @@ impl Incremental {
             + self.reach.memory_bytes()
             + self.clusters.memory_bytes()
             + self.groups.memory_bytes()
-            + [&self.changed, &self.reach_changed, &self.stale, &self.regroup]
-                .map(Spans::memory_bytes)
-                .iter()
-                .sum::<usize>()
+            + [&self.changed, &self.stale, &self.regroup].map(Spans::memory_bytes).iter().sum::<usize>()
             + self.row.capacity() * size_of::<u64>()
             + self.seeds.capacity() * size_of::<Cell>()
     }
@@ -172,7 +162,7 @@ impl Incremental {
             self.open.resize(width, height);
         }
         self.reach.reset(width, height);
-        for spans in [&mut self.changed, &mut self.reach_changed, &mut self.stale, &mut self.regroup] {
+        for spans in [&mut self.changed, &mut self.stale, &mut self.regroup] {
             spans.reset(self.frontier.row_words(), height);
         }
         self.stale.add_all();
@@ -210,13 +200,12 @@ impl Incremental {
             Reachability::Textbook => None,
             Reachability::WallsBlock => Some(self.params.neighbours),
         };
-        for (y, span) in self.reach_changed.iter() {
+        for (y, span) in self.reach.changed().iter() {
             match beside {
                 Some(_) => self.stale.add_with_margin(y, span),
                 None => self.stale.add(y, span),
             }
         }
-        self.reach_changed.clear();
         let Self { stale, row, frontier, regroup, .. } = self;
         let (reached, unknown) = (self.reach.plane(), self.planes.unknown());
         for plane in [unknown, frontier] {

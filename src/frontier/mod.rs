@@ -5,6 +5,7 @@ mod bits;
 mod canny;
 mod cells;
 mod clusters;
+mod connected;
 mod contacts;
 mod dbscan;
 mod fast;

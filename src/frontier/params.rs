@@ -69,6 +69,14 @@ impl DetectorParams {
         Ok(self.thresholds.validate()?)
     }
 
+    /// Which cells the search from the robot goes on to.
+    pub(super) const fn search_neighbours(&self) -> Neighbourhood {
+        match self.reachability {
+            Reachability::WallsBlock => Neighbourhood::Four,
+            Reachability::Textbook => self.neighbours,
+        }
+    }
+
     /// The smallest number of cells that a frontier must have, at least one.
     #[must_use]
     pub fn min_cells(&self, info: &GridInfo) -> usize {

@@ -18,6 +18,11 @@ const SEARCH_PER_CELL: usize = 256;
 /// What a run costs where all are found, in the same unit.
 const LABEL_PER_RUN: usize = 16;
 
+/// A run is kept for so many cells of the map at most: each takes twelve bytes.
+const CELLS_PER_RUN: usize = 256;
+/// So many are kept in any case.
+const MIN_RUNS: usize = 256;
+
 /// Cells of one row.
 #[derive(Clone, Copy, Debug)]
 struct Run {
@@ -107,7 +112,8 @@ impl Fill<'_> {
         while let Some(&Run { y, start, end }) = self.pocket.taken.get(next) {
             next += 1;
             cells += (end - start) as usize;
-            if cells * SEARCH_PER_CELL > all_cells + all_cells / cells * next * LABEL_PER_RUN {
+            let is_dear = cells * SEARCH_PER_CELL > all_cells + all_cells / cells * next * LABEL_PER_RUN;
+            if is_dear || self.pocket.taken.len() > MIN_RUNS + all_cells / CELLS_PER_RUN {
                 return None;
             }
             let (start, end) = (start.saturating_sub(margin), (end + margin).min(width));

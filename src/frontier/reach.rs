@@ -30,6 +30,8 @@ pub(super) struct Reach {
     reached: Vec<bool>,
     written: Vec<bool>,
     plane: BitPlane,
+    /// Words in which other cells are reached than before.
+    changed: Spans,
     labelled: LabelledTiles,
     /// Tiles that are written.
     stale: Vec<usize>,
@@ -52,6 +54,7 @@ impl Reach {
             reached: Vec::new(),
             written: Vec::new(),
             plane: BitPlane::default(),
+            changed: Spans::default(),
             labelled: LabelledTiles::default(),
             stale: Vec::new(),
             inner: Vec::new(),
@@ -63,10 +66,21 @@ impl Reach {
         &self.plane
     }
 
+    /// The words in which other cells were reached after the last update than before.
+    pub const fn changed(&self) -> &Spans {
+        &self.changed
+    }
+
+    /// What connects cells.
+    pub const fn neighbourhood(&self) -> Neighbourhood {
+        self.neighbourhood
+    }
+
     /// Starts over with planes of this size.
     pub fn reset(&mut self, width: usize, height: usize) {
         self.plane.resize(width, height);
         self.tiling = Tiling::new(self.plane.row_words(), height);
+        self.changed.reset(self.plane.row_words(), height);
         let count = self.tiling.len();
         self.tiles.resize_with(count, Tile::default);
         self.labelled.reset(&self.tiling);
@@ -80,15 +94,24 @@ impl Reach {
         self.written.clear();
     }
 
+    /// Finds what is connected to a seed in a plane of which nothing is known. Only the buffers
+    /// are kept.
+    pub fn find(&mut self, plane: &BitPlane, seed: Cell, reached: &mut BitPlane) {
+        std::mem::swap(&mut self.plane, reached);
+        self.reset(plane.width(), plane.height());
+        self.update(plane, &[seed]);
+        std::mem::swap(&mut self.plane, reached);
+    }
+
     /// Tells that a word of the plane changed.
     pub fn touch(&mut self, y: usize, word: usize) {
         self.dirty[self.tiling.at(y, word)] = true;
     }
 
     /// Finds again what is connected to any of the seeds in the plane, which must be as it
-    /// was but for the words touched. Adds the words in which other cells are reached than
-    /// before.
-    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell], changed: &mut Spans) {
+    /// was but for the words touched.
+    pub fn update(&mut self, plane: &BitPlane, seeds: &[Cell]) {
+        self.changed.clear();
         self.labelled.forget(&self.dirty);
         self.label_rims(plane);
         self.join_tiles(plane);
@@ -104,7 +127,7 @@ impl Reach {
             touch_tiles(plane, &self.tiling, self.stale.iter().copied());
         }
         for index in 0..self.stale.len() {
-            self.write(plane, self.stale[index], changed);
+            self.write(plane, self.stale[index]);
         }
         self.dirty.fill(false);
         std::mem::swap(&mut self.reached, &mut self.written);
@@ -184,13 +207,13 @@ impl Reach {
     }
 
     /// Writes the reached cells of a tile.
-    fn write(&mut self, plane: &BitPlane, tile: usize, changed: &mut Spans) {
+    fn write(&mut self, plane: &BitPlane, tile: usize) {
         let window = self.tiling.window(tile);
         let reached = &self.reached[self.nodes.of(&(tile..tile + 1))];
-        changed.expect(&window.rows);
+        self.changed.expect(&window.rows);
         let mut write = |y: usize, i: usize, word: u64| {
             let target = &mut self.plane.row_mut(y)[i];
-            changed.add_if(y, i, *target != word);
+            self.changed.add_if(y, i, *target != word);
             *target = word;
         };
         let is_mixed = reached.contains(&true) && reached.contains(&false);
@@ -216,6 +239,7 @@ impl Reach {
     pub fn memory_bytes(&self) -> usize {
         let flags = self.dirty.capacity() + self.has_inner.capacity();
         self.plane.memory_bytes()
+            + self.changed.memory_bytes()
             + self.labelled.memory_bytes()
             + self.tiles.capacity() * size_of::<Tile>()
             + self.tiles.iter().map(Tile::memory_bytes).sum::<usize>()

@@ -35,8 +35,6 @@ proptest! {
         let mut plane = BitPlane::new(WIDTH, HEIGHT);
         let mut reach = Reach::new(neighbourhood);
         reach.reset(WIDTH, HEIGHT);
-        let mut changed = Spans::default();
-        changed.reset(plane.row_words(), HEIGHT);
         for (lines, seed) in steps {
             let cells: Vec<Cell> = lines.iter().flat_map(|(cells, _)| cells.clone()).collect();
             for (cells, is_set) in &lines {
@@ -47,8 +45,7 @@ proptest! {
             }
             let before = reach.plane().clone();
             let seed = cells[seed.index(cells.len())];
-            changed.clear();
-            reach.update(&plane, &[seed], &mut changed);
+            reach.update(&plane, &[seed]);
             let all = Window::of(&plane);
             let mut labels = Labels::default();
             labels.label(&plane, &all, neighbourhood);
@@ -60,7 +57,7 @@ proptest! {
                 let words = (0..plane.row_words()).filter(|&i| before.row(y)[i] != expected.row(y)[i]);
                 let mut differ = Span::NONE;
                 words.for_each(|i| differ.join(Span::of(&(i..i + 1))));
-                let told: Vec<_> = changed.iter().filter(|&(row, _)| row == y).map(|(_, span)| span).collect();
+                let told: Vec<_> = reach.changed().iter().filter(|&(row, _)| row == y).map(|(_, span)| span).collect();
                 prop_assert_eq!(told, if differ.is_empty() { vec![] } else { vec![differ] });
             }
         }

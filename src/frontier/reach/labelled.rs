@@ -39,7 +39,7 @@ const TILES_FOR_EACH: usize = if cfg!(test) { 2 } else { 32 };
 impl LabelledTiles {
     /// Forgets all, and makes room for those of a plane.
     pub fn reset(&mut self, tiling: &Tiling) {
-        self.tiles.clear();
+        self.tiles.iter_mut().for_each(|labelled| labelled.tile = None);
         self.tiles.resize_with((tiling.len() / TILES_FOR_EACH).max(1), Labelled::default);
         self.next = 0;
     }
