@@ -206,22 +206,6 @@ impl BitPlane {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Clears the bits of a cell and of those to its left and right that are cells; which of
-    /// the three were set, from the left.
-    pub fn remove_three(&mut self, cell: Cell) -> [bool; 3] {
-        match self.place(cell) {
-            // All three in one word, as nearly always.
-            Some((word, bit)) if bit << 1 > 1 && bit >> 1 > 0 => {
-                let word = &mut self.words[word];
-                let (left, right) = (bit >> 1, bit << 1);
-                let set = [left, bit, right].map(|bit| *word & bit != 0);
-                *word &= !(left | bit | right);
-                set
-            }
-            _ => [-1, 0, 1].map(|x| self.remove(cell.offset((x, 0)))),
-        }
-    }
-
     fn place(&self, cell: Cell) -> Option<(usize, u64)> {
         let (x, y) = (usize::try_from(cell.x).ok()?, usize::try_from(cell.y).ok()?);
         (x < self.width && y < self.height).then(|| (y * self.row_words + x / WORD_CELLS, 1 << (x % WORD_CELLS)))
