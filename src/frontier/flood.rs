@@ -13,7 +13,7 @@ use super::spans::Span;
 use crate::grid::{BitPlane, BitWork, Cell, Neighbourhood, WORD_CELLS, with_bit_instructions};
 use std::ops::Range;
 
-/// Visits and looks at rows, in rows of the plane, after which to label runs is cheaper.
+/// Visits and looks at rows, in rows of the plane, after which to join tiles is cheaper.
 const MOST_STEPS_PER_ROW: usize = 48;
 
 /// The work of a fill from a seed that is reached.

@@ -1,9 +1,11 @@
 //! What detectors find: frontiers as lists of cells, in one list.
 
+mod splice;
+
 use super::cells::Cells;
 use super::{CellSide, Frontier};
 use crate::grid::Cell;
-use std::ops::Range;
+pub(super) use splice::Splice;
 use std::sync::Arc;
 
 /// The cells of frontiers, one after the other in one list: what a detector finds,
@@ -68,28 +70,6 @@ impl FrontierCells {
         self.cells.resize((start + cells) as usize, Cell::new(0, 0));
         self.ends.push(start + cells);
         start
-    }
-
-    /// Drops frontiers and puts others, which come in the order of first cells, among the
-    /// rest. What is kept is moved once, and not at all before the first that is dropped or
-    /// new.
-    pub(super) fn splice<'a>(&mut self, splice: &mut Splice, fresh: impl Iterator<Item = &'a [Cell]> + Clone) {
-        splice.plan(self, fresh.clone());
-        let Splice { blocks, places, cells, frontiers, .. } = &*splice;
-        self.cells.resize((*cells).max(self.cells.len()), Cell::new(0, 0));
-        self.ends.resize((*frontiers).max(self.ends.len()), 0);
-        move_all(&mut self.cells, blocks.iter().map(|block| (&block.cells, block.to_cell)));
-        move_all(&mut self.ends, blocks.iter().map(|block| (&block.frontiers, block.to_frontier)));
-        for Block { frontiers, cells, to_frontier, to_cell } in blocks {
-            let moved = &mut self.ends[*to_frontier..to_frontier + frontiers.len()];
-            moved.iter_mut().for_each(|end| *end = (*end as usize - cells.start + to_cell) as u32);
-        }
-        for (cells, &(frontier, place)) in fresh.zip(places) {
-            self.cells[place..place + cells.len()].copy_from_slice(cells);
-            self.ends[frontier] = (place + cells.len()) as u32;
-        }
-        self.cells.truncate(*cells);
-        self.ends.truncate(*frontiers);
     }
 
     /// How many frontiers begin before a cell, in row-major order.
@@ -170,133 +150,5 @@ impl FrontierCells {
             Frontier { id, cells, side: CellSide::Unknown, circle: None }
         };
         (0..).zip(0..shared.len()).map(frontier).collect()
-    }
-}
-
-/// What is to be done to a list of frontiers, with the buffers of it.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Splice {
-    /// Which are dropped, in order.
-    dropped: Vec<u32>,
-    /// Those that are kept, as they stand beside each other.
-    blocks: Vec<Block>,
-    /// Of each new one which it becomes and where its cells go.
-    places: Vec<(usize, usize)>,
-    /// How many cells and frontiers there are in the end.
-    cells: usize,
-    frontiers: usize,
-}
-
-/// Frontiers that stay beside each other.
-#[derive(Clone, Debug)]
-struct Block {
-    frontiers: Range<usize>,
-    cells: Range<usize>,
-    to_frontier: usize,
-    to_cell: usize,
-}
-
-/// Moves parts of a list that do not pass each other: downwards from the first on and upwards
-/// from the last on, so that nothing is written over that has still to be moved.
-fn move_all<'a, T: Copy>(list: &mut [T], moves: impl DoubleEndedIterator<Item = (&'a Range<usize>, usize)> + Clone) {
-    for (from, to) in moves.clone().filter(|(from, to)| *to < from.start) {
-        list.copy_within(from.clone(), to);
-    }
-    for (from, to) in moves.rev().filter(|(from, to)| *to > from.start) {
-        list.copy_within(from.clone(), to);
-    }
-}
-
-impl Splice {
-    /// Forgets what was to be done.
-    pub fn forget(&mut self) {
-        self.dropped.clear();
-    }
-
-    /// Drops a frontier that comes after those dropped so far.
-    pub fn drop(&mut self, index: usize) {
-        self.dropped.push(index as u32);
-    }
-
-    /// Finds out what goes where.
-    fn plan<'a>(&mut self, found: &FrontierCells, fresh: impl Iterator<Item = &'a [Cell]>) {
-        let Self { dropped, blocks, places, cells, frontiers } = self;
-        blocks.clear();
-        places.clear();
-        (*cells, *frontiers) = (0, 0);
-        let mut next = 0;
-        let mut keep_to = |next: &mut usize, end: usize, frontiers: &mut usize, cells: &mut usize| {
-            if *next < end {
-                let block = Block {
-                    frontiers: *next..end,
-                    cells: found.start(*next)..found.start(end),
-                    to_frontier: *frontiers,
-                    to_cell: *cells,
-                };
-                *frontiers += end - *next;
-                *cells += block.cells.len();
-                blocks.push(block);
-                *next = end;
-            }
-        };
-        let mut dropped = dropped.iter().map(|&index| index as usize).peekable();
-        for new in fresh {
-            let place = new.first().map_or(0, |&first| found.count_before(first));
-            while let Some(index) = dropped.next_if(|&index| index < place) {
-                keep_to(&mut next, index, frontiers, cells);
-                next = index + 1;
-            }
-            keep_to(&mut next, place, frontiers, cells);
-            places.push((*frontiers, *cells));
-            *frontiers += 1;
-            *cells += new.len();
-        }
-        for index in dropped {
-            keep_to(&mut next, index, frontiers, cells);
-            next = index + 1;
-        }
-        keep_to(&mut next, found.len(), frontiers, cells);
-    }
-
-    /// What the buffers take in memory, bytes.
-    pub fn memory_bytes(&self) -> usize {
-        self.dropped.capacity() * size_of::<u32>()
-            + self.blocks.capacity() * size_of::<Block>()
-            + self.places.capacity() * size_of::<(usize, usize)>()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    /// Frontiers of one to three cells whose first cells are in these columns.
-    fn found(columns: impl Iterator<Item = i32>) -> FrontierCells {
-        let mut found = FrontierCells::default();
-        for column in columns {
-            let first = found.push(column as u32 % 3 + 1);
-            (first..found.ends[found.len() - 1]).for_each(|place| found.put(place, Cell::new(column, 0)));
-        }
-        found
-    }
-
-    proptest! {
-        #[test]
-        fn what_is_replaced_is_as_if_listed_anew(kinds in proptest::collection::vec(0..3, 0..40)) {
-            // Kept, dropped and new ones in any order.
-            let of_kinds = |wanted: &[i32]| {
-                let wanted = wanted.to_vec();
-                found((0..).zip(&kinds).filter(|(_, kind)| wanted.contains(kind)).map(|(column, _)| column))
-            };
-            let mut list = of_kinds(&[0, 1]);
-            let fresh = of_kinds(&[2]);
-            let mut splice = Splice::default();
-            let kinds_listed = (0..).zip(list.iter().map(|cells| kinds[cells[0].x as usize]));
-            kinds_listed.filter(|&(_, kind)| kind == 1).for_each(|(index, _)| splice.drop(index));
-            list.splice(&mut splice, fresh.iter().collect::<Vec<_>>().into_iter());
-            let expected = of_kinds(&[0, 2]);
-            prop_assert_eq!((list.cells, list.ends), (expected.cells, expected.ends));
-        }
     }
 }
