@@ -48,7 +48,8 @@ fn exact_distances(bencher: Bencher, size: u32) {
 #[divan::bench(args = SIZES)]
 fn inflation(bencher: Bencher, size: u32) {
     let grid = office(size).grid;
-    let inflation = Inflation { inscribed_radius_m: 0.19, inflation_radius_m: 0.5, cost_scaling_factor: 5.0 };
+    let inflation =
+        Inflation { inscribed_radius_m: 0.19, clear_radius_m: 0.0, inflation_radius_m: 0.5, cost_scaling_factor: 5.0 };
     bencher
         .counter(ItemsCount::new(grid.data().len()))
         .bench_local(|| Costmap::inflate(&grid, &Thresholds::default(), &inflation));

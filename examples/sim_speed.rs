@@ -82,8 +82,8 @@ fn main() -> Result<()> {
 fn drive(world: &Arc<World>, start: &Pose) -> Result<()> {
     let robot = robot()?;
     let body = robot.body();
-    let follower = Box::new(PathFollower::new(FollowerConfig::default(), body));
-    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower);
+    let follower = Box::new(PathFollower::new(FollowerConfig::default(), body.clone()));
+    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower, &body);
     let mut sim = SimRobot::new(Arc::clone(world), &robot, SimConfig::default(), navigator, *start)?;
     let started = Instant::now();
     let mut id = 0;

@@ -12,6 +12,8 @@ use std::sync::Arc;
 pub struct MapSnapshot {
     /// Everything sensed up to this time, in seconds, is in the map.
     pub stamp_s: f64,
+    /// Grows with every map that comes, also with one that looks like the last.
+    pub version: u64,
     /// The occupancy grid.
     pub grid: Arc<OccupancyGrid>,
     /// A costmap of the same map, if the robot's navigation already has one.
@@ -103,6 +105,12 @@ pub enum Command {
         id: CommandId,
         /// Where to.
         goal_in_map: Pose,
+    },
+    /// Get away from what stands too near: slowly straight ahead or back, as far as that
+    /// increases the distance, and never without sight of it.
+    BackOff {
+        /// Of this command.
+        id: CommandId,
     },
     /// Turn on the spot by an angle.
     Turn {

@@ -45,7 +45,8 @@ fn detect(
     robot: Pose,
 ) -> Result<Vec<Frontier>, DetectError> {
     let thresholds = Thresholds::default();
-    let inflation = Inflation { inscribed_radius_m: 0.1, inflation_radius_m: 0.3, cost_scaling_factor: 5.0 };
+    let inflation =
+        Inflation { inscribed_radius_m: 0.1, clear_radius_m: 0.0, inflation_radius_m: 0.3, cost_scaling_factor: 5.0 };
     let costmap = Costmap::inflate(grid, &thresholds, &inflation);
     let scan = scan();
     let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&costmap), scan: Some((&robot, &scan)) };

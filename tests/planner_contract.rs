@@ -27,7 +27,8 @@ fn costmap(drawing: &str, origin: Pose) -> Costmap {
     let (width, height) = (drawn.info().width() as u32, drawn.info().height() as u32);
     let info = GridInfo::new(width, height, CELL_M, origin).unwrap();
     let grid = OccupancyGrid::new(info, drawn.data().to_vec()).unwrap();
-    let inflation = Inflation { inscribed_radius_m: 0.21, inflation_radius_m: 0.6, cost_scaling_factor: 5.0 };
+    let inflation =
+        Inflation { inscribed_radius_m: 0.21, clear_radius_m: 0.0, inflation_radius_m: 0.6, cost_scaling_factor: 5.0 };
     Costmap::inflate(&grid, &Thresholds::default(), &inflation)
 }
 

@@ -1,6 +1,7 @@
 //! A robot: outline, speeds, lidar and how its navigation inflates obstacles.
 //! One file for each in `configs/robots/`.
 
+use crate::explore::{RobotTraits, Sight};
 use crate::geometry::{Body, Footprint, FootprintError, MotionLimits, Pose};
 use crate::grid::Inflation;
 use crate::range::OutOfRange;
@@ -97,15 +98,24 @@ impl RobotConfig {
     }
 
     /// The inflation layer of this robot's costmap. A path is checked for the robot's
-    /// centre alone, whatever its heading will be there, so the disc that is kept free
-    /// is the circumscribed one.
+    /// centre alone: where the body fits through straight ahead is passable, and where
+    /// it can turn any way, with its padding, is cheaper.
     #[must_use]
     pub fn inflation(&self) -> Inflation {
         Inflation {
-            inscribed_radius_m: self.footprint.circumscribed_radius_m() + self.costmap.padding_m,
+            inscribed_radius_m: self.footprint.passage_radius_m(),
+            clear_radius_m: self.footprint.circumscribed_radius_m() + self.costmap.padding_m,
             inflation_radius_m: self.costmap.inflation_radius_m,
             cost_scaling_factor: self.costmap.cost_scaling_factor,
         }
+    }
+
+    /// What an explorer knows of this robot.
+    #[must_use]
+    pub fn traits(&self) -> RobotTraits {
+        let LidarConfig { mount, range_max_m, field_of_view_rad, .. } = self.lidar;
+        let sight = Sight { range_m: range_max_m, field_of_view_rad, heading_rad: mount.yaw };
+        RobotTraits { inflation: self.inflation(), body: self.body(), sight }
     }
 
     /// Checks every number.

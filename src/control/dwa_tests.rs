@@ -30,7 +30,8 @@ fn costmap(body: &Body, blocked: impl Fn(Cell) -> bool) -> Costmap {
         grid.set(cell, OccupancyGrid::OCCUPIED);
     }
     let inscribed_radius_m = body.footprint.circumscribed_radius_m() + 0.01;
-    let inflation = Inflation { inscribed_radius_m, inflation_radius_m: 0.5, cost_scaling_factor: 5.0 };
+    let inflation =
+        Inflation { inscribed_radius_m, clear_radius_m: 0.0, inflation_radius_m: 0.5, cost_scaling_factor: 5.0 };
     Costmap::inflate(&grid, &Thresholds::default(), &inflation)
 }
 

@@ -11,7 +11,9 @@ mod surroundings;
 pub use dwa::Dwa;
 pub use dwa_config::{DwaConfig, DwaWeights};
 pub use guard::StopGuard;
+pub use outline::Outline;
 pub use path_follower::{FollowerConfig, PathFollower};
+pub use surroundings::Surroundings;
 
 use crate::geometry::{Body, Path, Pose, Twist};
 use crate::grid::Costmap;

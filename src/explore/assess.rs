@@ -4,10 +4,11 @@
 use super::blacklist::{Blacklist, Taboo};
 use super::record::{CandidateRecord, CandidateStatus};
 use super::settings::ExplorerSettings;
-use super::standing::StandingSearch;
+use super::sight::Sights;
+use super::standing::{StandingGoal, StandingSearch};
 use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose};
-use crate::grid::GridInfo;
+use crate::grid::{Cell, GridInfo, INSCRIBED_COST, LETHAL_COST, OccupancyGrid};
 use crate::planning::PathField;
 use crate::selection::{Candidate, GoalSelector, Needs, SelectionContext};
 
@@ -16,7 +17,7 @@ use crate::selection::{Candidate, GoalSelector, Needs, SelectionContext};
 pub struct Assessed {
     /// For the decision record; `status` is final unless it is `Eligible`.
     pub record: CandidateRecord,
-    /// The representative point.
+    /// The representative point, or the cell that the robot is sent to see instead.
     pub target: Point,
     /// What the strategies see: present unless no place to stand is connected.
     pub candidate: Option<Candidate>,
@@ -30,54 +31,56 @@ pub struct Assessed {
 pub struct Surroundings<'a> {
     /// The settings.
     pub settings: &'a ExplorerSettings,
-    /// Where the frontiers' cells lie.
-    pub info: &'a GridInfo,
+    /// The map.
+    pub grid: &'a OccupancyGrid,
     /// What the strategy needs to know.
     pub needs: Needs,
     /// How far it is to everywhere; `None` when the robot stands where it cannot.
     pub field: Option<&'a PathField>,
     /// Places to leave alone.
     pub blacklist: &'a Blacklist,
+    /// Where the robot was.
+    pub sights: &'a Sights,
+    /// Everything sensed up to this time is in the map, seconds.
+    pub map_s: f64,
+    /// The robot has arrived somewhere and the map may be of before: what has come into
+    /// plain sight since can wait for the next one.
+    pub awaits_map: bool,
     /// Where the robot is.
     pub robot: Pose,
-    /// Now, seconds.
-    pub now_s: f64,
 }
+
+/// Where to go for a frontier.
+struct Aim {
+    target: Point,
+    goal: Option<Pose>,
+    status: CandidateStatus,
+    taboo: Option<Taboo>,
+}
+
+/// A representative point farther than this from all cells of its frontier does not stand
+/// for a place where these are seen, metres: the centre of a ring, of a bow.
+const OFF_FRONTIER_M: f64 = 0.5;
+/// So many of a frontier's cells are tried where its representative point serves for nothing.
+const OTHER_CELLS: usize = 12;
 
 impl Surroundings<'_> {
     /// Assesses one frontier.
     pub fn assess(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Assessed {
-        let (settings, needs) = (self.settings, self.needs);
-        let target = settings.goal.representative.of(frontier, self.info, self.robot.position());
+        let (info, needs) = (self.grid.info(), self.needs);
+        let Aim { target, goal, status, taboo } = self.aim(frontier, standing);
         let distance_m = self.robot.distance_to(target);
-        let goal = self.field.and_then(|field| {
-            standing.goal(field, &self.robot, target, settings.goal.search_radius_m, settings.goal.heading)
-        });
-        let size_m = frontier.size_m(self.info);
+        let size_m = frontier.size_m(info);
         let candidate = goal.map(|goal| Candidate {
             target,
             goal,
             size_cells: frontier.cells.len(),
             size_m,
-            radius_m: needs.radius.then(|| frontier.enclosing_circle(self.info).map_or(0.0, |circle| circle.radius_m)),
+            radius_m: needs.radius.then(|| frontier.enclosing_circle(info).map_or(0.0, |circle| circle.radius_m)),
             distance_m,
             nearest_m: needs.nearest.then(|| self.nearest_m(frontier)),
             way_m: self.way_m(&goal),
         });
-        let taboo = self.blacklist.check(target, self.now_s);
-        let status = if settings.region.as_ref().is_some_and(|region| !region.contains(target)) {
-            CandidateStatus::OutsideRegion
-        } else if taboo.is_some() {
-            CandidateStatus::Taboo
-        } else {
-            match goal {
-                None => CandidateStatus::Unreachable,
-                Some(goal) if self.robot.distance_to(goal.position()) < settings.goal.already_there_m => {
-                    CandidateStatus::AlreadyThere
-                }
-                Some(_) => CandidateStatus::Eligible,
-            }
-        };
         let record = CandidateRecord {
             id: frontier.id,
             target: target.into(),
@@ -92,14 +95,101 @@ impl Surroundings<'_> {
         Assessed { record, target, candidate, taboo, total: f64::INFINITY }
     }
 
+    fn aim(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Aim {
+        let (settings, info) = (self.settings, self.grid.info());
+        let target = settings.goal.representative.of(frontier, info, self.robot.position());
+        let left = |status, taboo| Aim { target, goal: None, status, taboo };
+        if settings.region.as_ref().is_some_and(|region| !region.contains(target)) {
+            return left(CandidateStatus::OutsideRegion, None);
+        }
+        if self.field.is_some_and(|field| is_too_narrow(frontier, info, field)) {
+            return left(CandidateStatus::TooNarrow, None);
+        }
+        let seen = |until_s| {
+            let robot = self.robot.position();
+            self.sights.of_frontier(frontier, self.grid, &settings.thresholds, robot, until_s)
+        };
+        let so_far = seen(self.map_s);
+        let mut goal = self.place_for(target, standing);
+        let mut target = target;
+        let serves = |goal: &Option<Pose>| goal.is_some_and(|goal| !self.is_here(&goal));
+        let stands_for_it = serves(&goal) && is_near(frontier, info, target);
+        if !(so_far.all || stands_for_it) {
+            let others = self.other_cells(frontier, so_far.nearest_open);
+            let other = others.into_iter().find_map(|cell| {
+                let place = self.place_for(cell, standing);
+                serves(&place).then_some((cell, place))
+            });
+            (target, goal) = other.unwrap_or((target, goal));
+        }
+        let taboo = if so_far.all { Some(Taboo::Exhausted) } else { self.blacklist.check(target) };
+        let status = match goal {
+            _ if taboo.is_some() => CandidateStatus::Taboo,
+            None if self.has_failed(target, standing) => {
+                return Aim { target, goal, status: CandidateStatus::Taboo, taboo: Some(Taboo::Failed) };
+            }
+            None => CandidateStatus::Unreachable,
+            Some(goal) if self.is_here(&goal) => CandidateStatus::AlreadyThere,
+            Some(_) if self.awaits_map && seen(f64::INFINITY).all => CandidateStatus::AlreadyThere,
+            Some(_) => CandidateStatus::Eligible,
+        };
+        Aim { target, goal, status, taboo }
+    }
+
+    /// The frontier's cells to go and see instead of its representative point: first the
+    /// nearest that was not in plain sight so far, then some all along it.
+    fn other_cells(&self, frontier: &Frontier, nearest_open: Option<Point>) -> Vec<Point> {
+        let info = self.grid.info();
+        let step = frontier.cells.len().div_ceil(OTHER_CELLS).max(1);
+        let mut along: Vec<Point> = frontier.cells.iter().step_by(step).map(|&cell| info.center(cell)).collect();
+        along.sort_by(|a, b| self.robot.distance_to(*a).total_cmp(&self.robot.distance_to(*b)));
+        nearest_open.into_iter().chain(along).collect()
+    }
+
+    fn place_for(&self, target: Point, standing: &mut StandingSearch) -> Option<Pose> {
+        self.place(target, standing, &|place| self.blacklist.refuses(place))
+    }
+
+    fn place(&self, target: Point, standing: &mut StandingSearch, refused: &dyn Fn(Point) -> bool) -> Option<Pose> {
+        let goal = &self.settings.goal;
+        let search = StandingGoal { radius_m: goal.search_radius_m, heading: goal.heading, refused };
+        standing.goal(self.field?, &self.robot, target, &search)
+    }
+
+    /// Whether there would be a place to stand but for those that have failed.
+    fn has_failed(&self, target: Point, standing: &mut StandingSearch) -> bool {
+        self.place(target, standing, &|_| false).is_some()
+    }
+
+    fn is_here(&self, goal: &Pose) -> bool {
+        self.robot.distance_to(goal.position()) < self.settings.goal.already_there_m
+    }
+
     fn nearest_m(&self, frontier: &Frontier) -> f64 {
-        frontier.cells.iter().map(|&cell| self.robot.distance_to(self.info.center(cell))).fold(f64::INFINITY, f64::min)
+        let info = self.grid.info();
+        frontier.cells.iter().map(|&cell| self.robot.distance_to(info.center(cell))).fold(f64::INFINITY, f64::min)
     }
 
     fn way_m(&self, goal: &Pose) -> Option<f64> {
-        let cells = self.field?.cost_cells(self.info.cell_at(goal.position()))?;
-        Some(cells * self.info.resolution_m())
+        let info = self.grid.info();
+        let cells = self.field?.cost_cells(info.cell_at(goal.position()))?;
+        Some(cells * info.resolution_m())
     }
+}
+
+/// Whether the robot's centre can be in no cell of a frontier for the obstacles beside
+/// it: the crack between two dots of a wall, the gap between two legs.
+fn is_too_narrow(frontier: &Frontier, info: &GridInfo, field: &PathField) -> bool {
+    let costmap = field.costmap();
+    let is_tight = |&cell: &Cell| {
+        let cost = if costmap.info() == info { costmap.cost(cell) } else { costmap.cost_at(info.center(cell)) };
+        matches!(cost, INSCRIBED_COST | LETHAL_COST)
+    };
+    frontier.cells.iter().all(is_tight)
+}
+
+fn is_near(frontier: &Frontier, info: &GridInfo, target: Point) -> bool {
+    frontier.cells.iter().any(|&cell| nalgebra::distance(&info.center(cell), &target) <= OFF_FRONTIER_M)
 }
 
 /// Scores the eligible ones and puts them first, best first; the others follow in the

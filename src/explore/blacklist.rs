@@ -1,4 +1,8 @@
 //! Places to leave alone: in metres, so that they outlive every map (invariant 6).
+//!
+//! A round is the time until nothing is left to try. What failed stays taboo for the
+//! round, however long it lasts, and is forgiven at its end, once more each time: a taboo
+//! that expires by the clock comes back before the others have had their turn.
 
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
@@ -9,17 +13,19 @@ use serde::{Deserialize, Serialize};
 pub struct TabooConfig {
     /// Targets within this distance are the same place, metres.
     pub radius_m: f64,
-    /// A place is taboo after failing this often.
+    /// A frontier is taboo for the round after failing this often, each time from another
+    /// place to stand.
     pub max_failures: u32,
-    /// And again allowed after this time, seconds.
-    pub expiry_s: f64,
-    /// A place is exhausted after being visited this often with its frontier unchanged.
+    /// What has failed is not tried again in later rounds either (Yamauchi 1997).
+    pub is_final: bool,
+    /// A frontier is exhausted after the robot was at its goal this often and newer maps
+    /// showed no change, also where nothing proves that it was in sight.
     pub max_visits: u32,
 }
 
 impl Default for TabooConfig {
     fn default() -> Self {
-        Self { radius_m: 0.4, max_failures: 2, expiry_s: 120.0, max_visits: 2 }
+        Self { radius_m: 0.4, max_failures: 2, is_final: false, max_visits: 2 }
     }
 }
 
@@ -28,79 +34,111 @@ impl Default for TabooConfig {
 pub enum Taboo {
     /// Driving there failed.
     Failed,
-    /// The robot was there, and nothing more could be seen.
+    /// It was seen from nearby, and nothing more could be seen.
     Exhausted,
 }
 
-/// One place and its history.
+/// One frontier's point and its history.
 #[derive(Clone, Debug)]
 struct Entry {
-    place: Point,
+    target: Point,
     failures: u32,
-    failed_s: f64,
     visits: u32,
 }
 
-/// The places that failed or were visited.
+/// A place to stand that could not be reached.
+#[derive(Clone, Copy, Debug)]
+struct Refused {
+    place: Point,
+    /// Where the robot was when it failed.
+    from: Point,
+    target: Point,
+}
+
+/// The frontiers and places that failed or were visited.
 #[derive(Clone, Debug)]
 pub struct Blacklist {
     config: TabooConfig,
     entries: Vec<Entry>,
+    refused: Vec<Refused>,
 }
+
+/// Places to stand within this distance are the same, metres.
+const SAME_PLACE_M: f64 = 0.25;
 
 impl Blacklist {
     /// An empty list.
     #[must_use]
     pub const fn new(config: TabooConfig) -> Self {
-        Self { config, entries: Vec::new() }
+        Self { config, entries: Vec::new(), refused: Vec::new() }
     }
 
-    /// Driving to a place failed at a time in seconds.
-    pub fn record_failure(&mut self, place: Point, now_s: f64) {
-        let entry = self.entry(place);
-        entry.failures += 1;
-        entry.failed_s = now_s;
+    /// Driving from a place to another one, to see a target, failed.
+    pub fn record_failure(&mut self, target: Point, place: Point, from: Point) {
+        self.entry(target).failures += 1;
+        self.refused.push(Refused { place, from, target });
     }
 
-    /// The robot was at a place and looked around.
-    pub fn record_visit(&mut self, place: Point) {
-        self.entry(place).visits += 1;
+    /// The robot was at the goal of a target, and a newer map shows no change.
+    pub fn record_visit(&mut self, target: Point) {
+        self.entry(target).visits += 1;
     }
 
-    /// Whether a place is to be left alone at a time in seconds, and why.
+    /// Why a frontier with this point is to be left alone, if it is.
     #[must_use]
-    pub fn check(&self, place: Point, now_s: f64) -> Option<Taboo> {
-        let near = |entry: &&Entry| nalgebra::distance(&entry.place, &place) <= self.config.radius_m;
+    pub fn check(&self, target: Point) -> Option<Taboo> {
+        let near = |entry: &&Entry| nalgebra::distance(&entry.target, &target) <= self.config.radius_m;
         let mut found = None;
         for entry in self.entries.iter().filter(near) {
             if entry.visits >= self.config.max_visits {
                 return Some(Taboo::Exhausted);
             }
-            if entry.failures >= self.config.max_failures && now_s - entry.failed_s < self.config.expiry_s {
+            if entry.failures >= self.config.max_failures {
                 found = Some(Taboo::Failed);
             }
         }
         found
     }
 
-    /// Gives every failed place one more chance.
+    /// Whether the robot has failed to get to a place to stand in this round.
+    #[must_use]
+    pub fn refuses(&self, place: Point) -> bool {
+        self.refused.iter().any(|refused| nalgebra::distance(&refused.place, &place) <= SAME_PLACE_M)
+    }
+
+    /// A new round: every failed place has one more chance, unless failures are final.
     pub fn forgive_failures(&mut self) {
+        if self.config.is_final {
+            return;
+        }
+        self.refused.clear();
         let last_chance = self.config.max_failures.saturating_sub(1);
         for entry in &mut self.entries {
             entry.failures = entry.failures.min(last_chance);
         }
     }
 
-    /// The places that are taboo now, for markers.
-    pub fn places(&self, now_s: f64) -> impl Iterator<Item = (Point, Taboo)> + '_ {
-        self.entries.iter().filter_map(move |e| self.check(e.place, now_s).map(|taboo| (e.place, taboo)))
+    /// What failed from near a place is not to blame: the robot could not get away.
+    pub fn forgive_from(&mut self, from: Point, radius_m: f64) {
+        let (forgiven, kept): (Vec<Refused>, _) =
+            self.refused.drain(..).partition(|refused| nalgebra::distance(&refused.from, &from) <= radius_m);
+        self.refused = kept;
+        for refused in forgiven {
+            let entry = self.entry(refused.target);
+            entry.failures = entry.failures.saturating_sub(1);
+        }
     }
 
-    fn entry(&mut self, place: Point) -> &mut Entry {
+    /// The places that are taboo now, for markers.
+    pub fn places(&self) -> impl Iterator<Item = (Point, Taboo)> + '_ {
+        self.entries.iter().filter_map(move |e| self.check(e.target).map(|taboo| (e.target, taboo)))
+    }
+
+    fn entry(&mut self, target: Point) -> &mut Entry {
         let radius_m = self.config.radius_m;
-        let known = self.entries.iter().position(|e| nalgebra::distance(&e.place, &place) <= radius_m);
+        let known = self.entries.iter().position(|e| nalgebra::distance(&e.target, &target) <= radius_m);
         let index = known.unwrap_or_else(|| {
-            self.entries.push(Entry { place, failures: 0, failed_s: 0.0, visits: 0 });
+            self.entries.push(Entry { target, failures: 0, visits: 0 });
             self.entries.len() - 1
         });
         &mut self.entries[index]
@@ -111,21 +149,37 @@ impl Blacklist {
 mod tests {
     use super::*;
 
+    const HERE: Point = Point::new(9.0, 9.0);
+
     #[test]
-    fn failures_add_up_expire_and_are_forgiven() {
-        let mut list = Blacklist::new(TabooConfig { max_failures: 2, expiry_s: 10.0, ..TabooConfig::default() });
-        let (place, near) = (Point::new(1.0, 1.0), Point::new(1.2, 1.0));
-        list.record_failure(place, 0.0);
-        assert_eq!(list.check(place, 1.0), None);
-        list.record_failure(near, 2.0);
-        assert_eq!(list.check(near, 3.0), Some(Taboo::Failed));
-        assert_eq!(list.check(Point::new(2.0, 2.0), 3.0), None);
-        assert_eq!(list.check(near, 12.5), None, "expired");
-        list.record_failure(near, 13.0);
+    fn failures_add_up_for_the_round_and_are_forgiven_after_it() {
+        let mut list = Blacklist::new(TabooConfig { max_failures: 2, ..TabooConfig::default() });
+        let (target, near) = (Point::new(1.0, 1.0), Point::new(1.2, 1.0));
+        let stand = Point::new(0.5, 1.0);
+        list.record_failure(target, stand, HERE);
+        assert_eq!((list.check(target), list.refuses(stand)), (None, true));
+        list.record_failure(near, Point::new(0.5, 2.0), HERE);
+        assert_eq!(list.check(near), Some(Taboo::Failed));
+        assert_eq!(list.check(Point::new(2.0, 2.0)), None);
         list.forgive_failures();
-        assert_eq!(list.check(near, 14.0), None, "one more chance");
-        list.record_failure(near, 15.0);
-        assert_eq!(list.check(near, 16.0), Some(Taboo::Failed));
+        assert_eq!((list.check(near), list.refuses(stand)), (None, false), "one more chance");
+        list.record_failure(near, stand, HERE);
+        assert_eq!(list.check(near), Some(Taboo::Failed));
+        let mut for_good = Blacklist::new(TabooConfig { max_failures: 1, is_final: true, ..TabooConfig::default() });
+        for_good.record_failure(target, stand, HERE);
+        for_good.forgive_failures();
+        assert_eq!(for_good.check(target), Some(Taboo::Failed));
+    }
+
+    #[test]
+    fn what_failed_from_where_the_robot_was_wedged_is_not_to_blame() {
+        let mut list = Blacklist::new(TabooConfig { max_failures: 1, ..TabooConfig::default() });
+        let (target, other) = (Point::new(1.0, 1.0), Point::new(5.0, 5.0));
+        list.record_failure(target, target, HERE);
+        list.record_failure(other, other, Point::new(0.0, 0.0));
+        list.forgive_from(Point::new(9.1, 9.0), 0.3);
+        assert_eq!((list.check(target), list.refuses(target)), (None, false));
+        assert_eq!((list.check(other), list.refuses(other)), (Some(Taboo::Failed), true));
     }
 
     #[test]
@@ -133,7 +187,8 @@ mod tests {
         let mut list = Blacklist::new(TabooConfig::default());
         list.record_visit(Point::new(0.0, 0.0));
         list.record_visit(Point::new(0.1, 0.0));
-        assert_eq!(list.check(Point::new(0.0, 0.1), 1e9), Some(Taboo::Exhausted));
-        assert_eq!(list.places(0.0).count(), 1);
+        list.forgive_failures();
+        assert_eq!(list.check(Point::new(0.0, 0.1)), Some(Taboo::Exhausted));
+        assert_eq!(list.places().count(), 1);
     }
 }

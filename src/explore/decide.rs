@@ -1,15 +1,20 @@
-//! One decision: detect, assess, rank, and take the first to which there is a way.
+//! One decision: detect, assess, rank, and take the first to which there is a way; and
+//! where there is none, look once more with other eyes.
 
 use super::assess::{Assessed, Surroundings, rank};
+use super::audit::Audit;
+use super::behind::unknown_behind_m2;
 use super::blacklist::{Blacklist, Taboo};
 use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position, SeenFrontier};
 use super::settings::ExplorerSettings;
+use super::sight::Sights;
 use super::stages::stage;
 use super::standing::StandingSearch;
+use super::traits::RobotTraits;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
-use crate::geometry::{Body, Path, Point, Pose};
+use crate::geometry::{Path, Point, Pose};
 use crate::grid::{Costmap, GridInfo, Inflation, OccupancyGrid, Thresholds};
-use crate::planning::{Astar, GlobalPlanner, PathField, PlanError};
+use crate::planning::{Astar, Driven, GlobalPlanner, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
 use crate::selection::GoalSelector;
 use std::sync::Arc;
@@ -19,7 +24,7 @@ use std::sync::Arc;
 pub struct Choice {
     /// Where the robot shall stand.
     pub goal: Pose,
-    /// The frontier's representative point.
+    /// The frontier's representative point, or the cell to be seen.
     pub target: Point,
     /// Whether the goal is only a place on the way there.
     pub is_stage: bool,
@@ -36,6 +41,22 @@ pub struct Decided {
     pub here: Option<Point>,
     /// What is left, by the reason for leaving it.
     pub left_behind: LeftBehind,
+    /// What the audit found besides, where there was nothing to choose.
+    pub audit: Option<Audited>,
+}
+
+/// What the check before an end found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Audited {
+    /// Frontiers that the robot could be sent to, and the preset's rules forbid it.
+    pub forbidden: usize,
+    /// Their length in all, metres.
+    pub forbidden_m: f64,
+    /// Frontiers that the bare body could get to, and with its padding and room to turn it
+    /// cannot.
+    pub barred: usize,
+    /// Whether the robot stands in a pocket: a place too small to be one of its own.
+    pub in_pocket: bool,
 }
 
 impl Decided {
@@ -46,23 +67,62 @@ impl Decided {
         self.record.candidates.iter().any(|c| is_open(c.status) && near(c.target))
     }
 
-    /// Why a run ends for which nothing is left to choose.
-    pub fn why_nothing_is_left(&self) -> (EndReason, String) {
-        let LeftBehind { frontiers, unreachable, failed, exhausted, outside_region } = self.left_behind;
-        if unreachable + failed > 0 {
+    /// Why a run ends for which nothing is left to choose. `is_wedged`: the robot has not
+    /// got away from where it is for long.
+    pub fn why_nothing_is_left(&self, is_wedged: bool) -> (EndReason, String) {
+        let left = &self.left_behind;
+        let audit = self.audit.unwrap_or(Audited { forbidden: 0, forbidden_m: 0.0, barred: 0, in_pocket: false });
+        let behind = format!("{:.1} m of frontier, {:.1} m2 or more behind it", left.length_m, left.area_m2);
+        let blocked = left.failed + audit.barred;
+        if (left.unreachable > 0 && audit.in_pocket) || (left.failed > 0 && is_wedged) {
             let message = format!(
-                "{} of {frontiers} frontiers cannot be reached ({unreachable} without a place to stand that is \
-                 connected, {failed} where driving failed)",
-                unreachable + failed
+                "the robot does not get away from where it is, and {} frontiers are left: {behind}",
+                left.frontiers
+            );
+            (EndReason::Stuck, message)
+        } else if blocked > 0 {
+            let message = format!(
+                "{blocked} of {} frontiers cannot be reached ({} where driving failed, {} by ways too tight for the \
+                 robot): {behind}",
+                left.frontiers, left.failed, audit.barred
             );
             (EndReason::AllUnreachable, message)
-        } else if exhausted > 0 || outside_region == 0 {
-            let message = format!("nothing more can be seen of the {exhausted} frontiers that are left");
-            (EndReason::Complete, message)
+        } else if audit.forbidden > 0 {
+            let message = format!(
+                "the preset sees no more, and the map has {} frontiers of {:.1} m that can be reached",
+                audit.forbidden, audit.forbidden_m
+            );
+            (EndReason::PresetSeesNoMore, message)
+        } else if left.outside_region > 0 {
+            (EndReason::OutsideRegion, format!("all {} frontiers left lie outside the region", left.outside_region))
+        } else if left.frontiers == 0 {
+            (EndReason::Complete, "no frontier is left".to_owned())
         } else {
-            (EndReason::OutsideRegion, format!("all {outside_region} frontiers left lie outside the region"))
+            let message = format!(
+                "no frontier is left that the robot could get to and see more of ({} seen in vain, {} behind openings \
+                 narrower than the robot: {behind})",
+                left.exhausted,
+                left.too_narrow + left.unreachable
+            );
+            (EndReason::Complete, message)
         }
     }
+}
+
+/// What a decision is made on, besides the map.
+pub struct Situation<'a> {
+    /// The settings.
+    pub settings: &'a ExplorerSettings,
+    /// What failed or was visited.
+    pub blacklist: &'a Blacklist,
+    /// Where the robot was.
+    pub sights: &'a Sights,
+    /// Where it drove.
+    pub driven: &'a Driven,
+    /// Where it is.
+    pub robot: Pose,
+    /// It has arrived, and the map may be of before.
+    pub awaits_map: bool,
 }
 
 /// The algorithms that a decision wires together.
@@ -75,27 +135,38 @@ pub struct Lookout {
     inflation: Inflation,
     standing: StandingSearch,
     tracker: FrontierTracker,
+    audit: Audit,
     frontiers: Vec<SeenFrontier>,
     path: Option<Path>,
-    /// The costmap made last, with its map and the map's stamp.
-    costmap: Option<(f64, Arc<OccupancyGrid>, Arc<Costmap>)>,
+    /// The costmap made last, with the map that it was made of.
+    costmap: Option<(Arc<OccupancyGrid>, Arc<Costmap>)>,
+    /// A costmap, and the one made of it for a robot that keeps to where it can turn.
+    roomy: Option<[Arc<Costmap>; 2]>,
+}
+
+/// What became of the frontiers of one detector.
+struct Weighed {
+    assessed: Vec<Assessed>,
+    choice: Option<Choice>,
 }
 
 impl Lookout {
     /// The algorithms that the settings name, for a robot.
-    pub fn new(settings: &ExplorerSettings, inflation: Inflation, body: &Body) -> Self {
+    pub fn new(settings: &ExplorerSettings, robot: &RobotTraits) -> Self {
         Self {
             detector: settings.detector.name.build(&settings.detector_params()),
             selector: settings.selection.build(),
-            planner: settings.planner.build(body),
+            planner: settings.planner.build(&robot.body),
             guide: Astar::default(),
             thresholds: settings.thresholds,
-            inflation,
+            inflation: robot.inflation,
             standing: StandingSearch::default(),
             tracker: FrontierTracker::new(),
+            audit: Audit::new(robot, settings.thresholds),
             frontiers: Vec::new(),
             path: None,
             costmap: None,
+            roomy: None,
         }
     }
 
@@ -126,14 +197,14 @@ impl Lookout {
     /// [`DetectError`] when this map gives no answer; that is not "no frontier".
     pub fn decide(
         &mut self,
-        settings: &ExplorerSettings,
-        blacklist: &Blacklist,
+        situation: &Situation<'_>,
         observation: &Observation,
         map: &MapSnapshot,
-        robot: Pose,
     ) -> Result<Decided, DetectError> {
-        let (grid, now_s) = (&map.grid, observation.stamp_s);
-        let costmap = self.costmap(map);
+        let (grid, robot) = (&map.grid, situation.robot);
+        let tight = self.costmap(map);
+        let roomy = self.roomy(&tight);
+        let costmap = situation.driven.open(&roomy, &robot);
         let scan = observation.scan.as_ref().map(|(lidar_in_map, scan)| (lidar_in_map, &**scan));
         let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&costmap), scan };
         let mut frontiers = self.detector.detect(&input)?;
@@ -144,26 +215,113 @@ impl Lookout {
         self.frontiers = in_metres(&frontiers, grid.info());
         // A robot that stands where it cannot reaches nothing: the recovery turn and
         // the next map may free it.
-        let needs = self.selector.needs();
-        let search = if needs.way { PathField::new } else { PathField::reach_only };
-        let field = search(Arc::clone(&costmap), &robot).ok();
-        let surroundings =
-            Surroundings { settings, info: grid.info(), needs, field: field.as_ref(), blacklist, robot, now_s };
-        let standing = &mut self.standing;
-        let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
-        let eligible = rank(&mut assessed, &mut *self.selector, robot);
-        let choice = self.first_with_a_way(&mut assessed[..eligible], &costmap, &robot);
-        let left_behind = count(&assessed);
-        let here = if choice.is_none() { nearest_here(&assessed) } else { None };
-        let why = explain(&assessed, choice.as_ref(), self.selector.name(), &left_behind);
+        let search = if self.selector.needs().way { PathField::new } else { PathField::reach_only };
+        let mut field = search(Arc::clone(&costmap), &robot).ok();
+        let mut weighed = self.weigh(&frontiers, situation, map, field.as_ref());
+        let has_nothing = |weighed: &Weighed| weighed.choice.is_none() && nearest_here(&weighed.assessed).is_none();
+        if has_nothing(&weighed) && !Arc::ptr_eq(&tight, &roomy) {
+            // Only now by ways on which the robot fits and cannot turn.
+            field = search(situation.driven.open(&tight, &robot), &robot).ok();
+            weighed = self.weigh(&frontiers, situation, map, field.as_ref());
+        }
+        let mut audit = None;
+        if has_nothing(&weighed) {
+            let raw = self.audit.frontiers(grid, robot)?;
+            let mut second = self.weigh(&raw, situation, map, field.as_ref());
+            let mut audited = self.audit_of(&second, situation, map, field.as_ref());
+            if !situation.settings.finish.explore_what_the_audit_sees {
+                let open = |a: &&Assessed| {
+                    matches!(
+                        a.record.status,
+                        CandidateStatus::Chosen | CandidateStatus::Eligible | CandidateStatus::AlreadyThere
+                    )
+                };
+                audited.forbidden = second.assessed.iter().filter(open).count();
+                audited.forbidden_m = second.assessed.iter().filter(open).map(|a| a.record.size_m).sum();
+                second.choice = None;
+            }
+            if second.choice.is_some() {
+                self.frontiers = in_metres(&raw, grid.info());
+            }
+            frontiers = raw;
+            (weighed, audit) = (second, Some(audited));
+        }
+        let Weighed { assessed, choice } = weighed;
+        let mut left_behind = count(&assessed);
+        let wants_area = choice.is_none() || situation.settings.finish.good_enough_share.is_some();
+        if wants_area {
+            let is_inside = |f: &&Frontier| {
+                let status = assessed.iter().find(|a| a.record.id == f.id).map(|a| a.record.status);
+                status != Some(CandidateStatus::OutsideRegion)
+            };
+            left_behind.area_m2 = unknown_behind_m2(frontiers.iter().filter(is_inside), grid, &self.thresholds);
+        }
+        let is_forbidden = audit.is_some_and(|audit| audit.forbidden > 0);
+        let here = if choice.is_none() && !is_forbidden { nearest_here(&assessed) } else { None };
+        let mut why = explain(&assessed, choice.as_ref(), self.selector.name(), &left_behind);
+        if audit.is_some() && choice.is_some() {
+            why.insert_str(0, "the preset sees nothing more, the audit does: ");
+        }
         let record = DecisionRecord {
-            time_s: now_s,
+            time_s: observation.stamp_s,
             pose: robot,
             candidates: assessed.into_iter().map(|a| a.record).collect(),
             goal: choice.map(|c| c.goal),
             why,
         };
-        Ok(Decided { record, choice, here, left_behind })
+        Ok(Decided { record, choice, here, left_behind, audit })
+    }
+
+    /// Assesses and ranks frontiers, and takes the first to which there is a way.
+    fn weigh(
+        &mut self,
+        frontiers: &[Frontier],
+        situation: &Situation<'_>,
+        map: &MapSnapshot,
+        field: Option<&PathField>,
+    ) -> Weighed {
+        let surroundings = Surroundings {
+            settings: situation.settings,
+            grid: &map.grid,
+            needs: self.selector.needs(),
+            field,
+            blacklist: situation.blacklist,
+            sights: situation.sights,
+            map_s: map.stamp_s,
+            awaits_map: situation.awaits_map,
+            robot: situation.robot,
+        };
+        let standing = &mut self.standing;
+        let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
+        let eligible = rank(&mut assessed, &mut *self.selector, situation.robot);
+        let choice =
+            field.and_then(|field| self.first_with_a_way(&mut assessed[..eligible], field.costmap(), &situation.robot));
+        Weighed { assessed, choice }
+    }
+
+    /// What bars the way to the frontiers that are left.
+    fn audit_of(
+        &mut self,
+        weighed: &Weighed,
+        situation: &Situation<'_>,
+        map: &MapSnapshot,
+        field: Option<&PathField>,
+    ) -> Audited {
+        let robot = &situation.robot;
+        let unreachable = |a: &&Assessed| a.record.status == CandidateStatus::Unreachable;
+        let in_pocket = field.is_none_or(|field| field.area_m2() < POCKET_M2);
+        let mut barred = 0;
+        if weighed.assessed.iter().any(|a| unreachable(&a)) {
+            let widest = self.audit.widest_reach(&map.grid, situation.driven, robot);
+            let radius_m = situation.settings.goal.search_radius_m;
+            let reach = map.grid.info().cells(radius_m).ceil().clamp(0.0, 1e4) as u32;
+            let near = |a: &&Assessed| {
+                let cell = map.grid.info().cell_at(a.target);
+                widest.as_ref().is_some_and(|field| field.reaches_near(cell, reach))
+            };
+            barred = weighed.assessed.iter().filter(unreachable).filter(near).count();
+        }
+        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket }
     }
 
     /// Asks the planner in order of rank; what has no path says so in its record. When
@@ -195,6 +353,18 @@ impl Lookout {
         })
     }
 
+    /// The costmap with which the robot keeps to where it can turn.
+    fn roomy(&mut self, costmap: &Arc<Costmap>) -> Arc<Costmap> {
+        if let Some([tight, roomy]) = &self.roomy
+            && Arc::ptr_eq(tight, costmap)
+        {
+            return Arc::clone(roomy);
+        }
+        let roomy = costmap.without_narrow().map_or_else(|| Arc::clone(costmap), Arc::new);
+        self.roomy = Some([Arc::clone(costmap), Arc::clone(&roomy)]);
+        roomy
+    }
+
     /// The costmap that came with the map, or our own, made once for each map.
     fn costmap(&mut self, map: &MapSnapshot) -> Arc<Costmap> {
         if let Some(costmap) = &map.costmap {
@@ -202,15 +372,18 @@ impl Lookout {
         }
         let (thresholds, inflation) = (&self.thresholds, &self.inflation);
         let costmap = match &self.costmap {
-            Some((stamp_s, _, costmap)) if *stamp_s == map.stamp_s => return Arc::clone(costmap),
-            Some((_, old, costmap)) => costmap.reinflate(old, &map.grid, thresholds, inflation),
+            Some((old, costmap)) if Arc::ptr_eq(old, &map.grid) => return Arc::clone(costmap),
+            Some((old, costmap)) => costmap.reinflate(old, &map.grid, thresholds, inflation),
             None => Costmap::inflate(&map.grid, thresholds, inflation),
         };
         let costmap = Arc::new(costmap);
-        self.costmap = Some((map.stamp_s, Arc::clone(&map.grid), Arc::clone(&costmap)));
+        self.costmap = Some((Arc::clone(&map.grid), Arc::clone(&costmap)));
         costmap
     }
 }
+
+/// A place smaller than this is a pocket and not the robot's world, square metres.
+const POCKET_M2: f64 = 1.0;
 
 impl Assessed {
     /// Makes it the choice of its decision.
@@ -238,11 +411,15 @@ fn nearest_here(assessed: &[Assessed]) -> Option<Point> {
 fn count(assessed: &[Assessed]) -> LeftBehind {
     let mut left = LeftBehind { frontiers: assessed.len(), ..LeftBehind::default() };
     for a in assessed {
+        if a.record.status != CandidateStatus::OutsideRegion {
+            left.length_m += a.record.size_m;
+        }
         match (a.record.status, a.taboo) {
             (CandidateStatus::OutsideRegion, _) => left.outside_region += 1,
-            (CandidateStatus::Unreachable | CandidateStatus::NoPath, _) => left.unreachable += 1,
+            (CandidateStatus::TooNarrow, _) => left.too_narrow += 1,
+            (CandidateStatus::Unreachable, _) => left.unreachable += 1,
             (CandidateStatus::Taboo, Some(Taboo::Exhausted)) => left.exhausted += 1,
-            (CandidateStatus::Taboo, _) => left.failed += 1,
+            (CandidateStatus::Taboo | CandidateStatus::NoPath, _) => left.failed += 1,
             (CandidateStatus::Chosen | CandidateStatus::Eligible | CandidateStatus::AlreadyThere, _) => {}
         }
     }
@@ -262,8 +439,8 @@ fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left:
             )
         }
         None => format!(
-            "no goal among {} frontiers: {} unreachable, {} failed, {} exhausted, {} outside the region",
-            left.frontiers, left.unreachable, left.failed, left.exhausted, left.outside_region
+            "no goal among {} frontiers: {} unreachable, {} failed, {} seen in vain, {} too narrow, {} outside the region",
+            left.frontiers, left.unreachable, left.failed, left.exhausted, left.too_narrow, left.outside_region
         ),
     }
 }

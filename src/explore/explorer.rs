@@ -3,29 +3,48 @@
 //! Topiwala 2018, section III: first a full turn; then frontiers are detected, the
 //! nearest one to which there is a way becomes the goal, a full turn follows on
 //! arrival, and so on until no frontier is left. The settings switch the turns off,
-//! reorder the goals, or reconsider them on the way, as the other papers ask.
+//! reorder the goals, or reconsider them on the way, as the other papers ask. What no paper
+//! says is what to do when something fails, and when a run may call itself complete:
+//! `follow.rs`, `recover.rs` and `audit.rs`.
 
+mod drive;
 mod follow;
 mod pause;
+mod recover;
 
 use super::blacklist::Blacklist;
 use super::decide::Lookout;
+use super::ledger::{Ledger, TimeSpent};
+use super::map_watch::MapWatch;
 use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontier};
 use super::settings::{ExplorerSettings, SettingsError};
-use super::state::{Decision, State, has_ended};
-use crate::geometry::{Body, Path, Point, Polygon, Pose};
-use crate::grid::Inflation;
-use crate::planning::GlobalPlanner;
-use crate::robot::{CommandId, MapSnapshot, NavigationState, Observation};
+use super::sight::Sights;
+use super::state::{AfterTurn, Decision, State, has_ended};
+use super::traits::RobotTraits;
+use super::trouble::Trouble;
+use crate::geometry::{Path, Point, Polygon, Pose};
+use crate::planning::{Driven, GlobalPlanner};
+use crate::robot::{CommandId, MapSnapshot, Observation};
+use std::f64::consts::TAU;
 
 /// The longest that a turn may take, seconds; then the run goes on without it.
 const TURN_TIMEOUT_S: f64 = 60.0;
+/// The longest that backing off may take, seconds.
+const BACK_OFF_TIMEOUT_S: f64 = 15.0;
+
+/// A step by more than this beyond what the robot can drive is a jump, metres.
+const JUMP_M: f64 = 0.5;
 
 /// Explores: hand it every observation, obey its decisions.
 pub struct Explorer {
     settings: ExplorerSettings,
     lookout: Lookout,
     blacklist: Blacklist,
+    watch: MapWatch,
+    sights: Sights,
+    driven: Driven,
+    trouble: Trouble,
+    ledger: Ledger,
     state: State,
     commands: CommandId,
     counts: Counts,
@@ -34,24 +53,31 @@ pub struct Explorer {
     pose_lost_since_s: Option<f64>,
     navigation_lost_since_s: Option<f64>,
     map_lost_since_s: Option<f64>,
+    /// Goals that were reached, until a newer map shows what became of their frontiers.
+    arrivals: Vec<Point>,
     recoveries_in_a_row: u32,
-    empty_in_a_row: u32,
     left_behind: LeftBehind,
+    notice: Option<String>,
+    last_pose: Option<(f64, Pose)>,
+    top_speed_mps: f64,
 }
 
 impl Explorer {
-    /// An explorer that has seen nothing yet. `inflation` describes the robot for the
-    /// costmaps that it makes where the robot's navigation provides none, `body` for
-    /// planners that look at its outline and speeds.
+    /// An explorer that has seen nothing yet, for a robot.
     ///
     /// # Errors
     /// [`SettingsError`] when a setting cannot be.
-    pub fn new(settings: ExplorerSettings, inflation: Inflation, body: &Body) -> Result<Self, SettingsError> {
+    pub fn new(settings: ExplorerSettings, robot: &RobotTraits) -> Result<Self, SettingsError> {
         settings.validate()?;
         Ok(Self {
-            lookout: Lookout::new(&settings, inflation, body),
+            lookout: Lookout::new(&settings, robot),
             blacklist: Blacklist::new(settings.taboo),
             settings,
+            watch: MapWatch::default(),
+            sights: Sights::new(robot.sight),
+            driven: Driven::default(),
+            trouble: Trouble::default(),
+            ledger: Ledger::default(),
             state: State::Begin,
             commands: 0,
             counts: Counts::default(),
@@ -60,9 +86,12 @@ impl Explorer {
             pose_lost_since_s: None,
             navigation_lost_since_s: None,
             map_lost_since_s: None,
+            arrivals: Vec::new(),
             recoveries_in_a_row: 0,
-            empty_in_a_row: 0,
             left_behind: LeftBehind::default(),
+            notice: None,
+            last_pose: None,
+            top_speed_mps: robot.body.limits.max_linear_mps,
         })
     }
 
@@ -70,6 +99,12 @@ impl Explorer {
     #[must_use]
     pub const fn counts(&self) -> &Counts {
         &self.counts
+    }
+
+    /// Where the time went so far.
+    #[must_use]
+    pub const fn time_spent(&self) -> &TimeSpent {
+        self.ledger.spent()
     }
 
     /// The frontiers of the last detection.
@@ -114,24 +149,10 @@ impl Explorer {
     /// returning the end.
     pub fn step(&mut self, observation: &Observation) -> Decision {
         let now_s = observation.stamp_s;
-        let started_s = *self.started_s.get_or_insert(now_s);
-        let limit = self.settings.patience.time_limit_s;
-        if limit.is_some_and(|limit_s| now_s - started_s >= limit_s) {
-            self.end_now(EndReason::TimeLimit, now_s, "the time allowed is over");
-        }
-        let record = match &observation.pose_in_map {
-            Ok(pose) => {
-                self.pose_lost_since_s = None;
-                self.start_pose.get_or_insert(*pose);
-                if let Some(why) = self.unavailable(observation) {
-                    return self.pause_without_navigation(now_s, &why);
-                }
-                self.navigation_lost_since_s = None;
-                self.advance(observation, *pose)
-            }
-            Err(error) => return self.pause_without_pose(now_s, &error.to_string()),
-        };
-        self.state.decision(record)
+        let mut decision = self.tick(observation);
+        decision.notice = decision.notice.take().or_else(|| self.notice.take());
+        self.ledger.book(now_s, observation.pose_in_map.as_ref().ok(), decision.phase);
+        decision
     }
 
     /// Ends the run now, for a reason that the explorer itself cannot see. A run that
@@ -146,32 +167,97 @@ impl Explorer {
         end
     }
 
+    fn tick(&mut self, observation: &Observation) -> Decision {
+        let now_s = observation.stamp_s;
+        let started_s = *self.started_s.get_or_insert(now_s);
+        let limit = self.settings.patience.time_limit_s;
+        if limit.is_some_and(|limit_s| now_s - started_s >= limit_s) {
+            self.end_now(EndReason::TimeLimit, now_s, "the time allowed is over");
+        }
+        if let Some(notice) = self.watch.update(observation.map.as_ref(), observation.pose_in_map.as_ref().ok(), now_s)
+        {
+            self.notice = Some(notice);
+        }
+        let pose = match &observation.pose_in_map {
+            Ok(pose) => *pose,
+            Err(error) => return self.pause_without_pose(now_s, &error.to_string()),
+        };
+        self.pose_lost_since_s = None;
+        self.start_pose.get_or_insert(pose);
+        self.notice_jump(&pose, now_s);
+        self.sights.stand(&pose, now_s);
+        self.driven.note(&pose);
+        self.trouble.follow(&pose);
+        if let Some(why) = self.unavailable(observation) {
+            return self.pause_without_navigation(now_s, &why);
+        }
+        self.navigation_lost_since_s = None;
+        self.watch_for_maps(now_s);
+        let record = self.advance(observation, pose);
+        self.state.decision(record)
+    }
+
+    /// A pose that no robot can have driven to: the map was moved under it, by a loop that
+    /// closed or by a mapper that lost its way. What was seen from where counts no more.
+    fn notice_jump(&mut self, pose: &Pose, now_s: f64) {
+        let Some((last_s, last)) = self.last_pose.replace((now_s, *pose)) else { return };
+        let moved_m = pose.distance_to(last.position());
+        if moved_m > JUMP_M + self.top_speed_mps * (now_s - last_s) {
+            self.sights.forget();
+            self.notice = Some(format!("the map jumped under the robot by {moved_m:.1} m"));
+        }
+    }
+
     /// Moves the state on, at most a few times in one tick.
     fn advance(&mut self, observation: &Observation, pose: Pose) -> Option<DecisionRecord> {
         let now_s = observation.stamp_s;
         for _ in 0..3 {
             match &self.state {
                 State::Begin if self.settings.turns.at_start => self.look_round(now_s),
-                State::Begin => self.settle(now_s, f64::NEG_INFINITY),
-                State::Turning { id, since_s } => {
-                    let ended = has_ended(observation, *id) || now_s - since_s > TURN_TIMEOUT_S;
-                    if !ended {
+                State::Begin => self.state = State::Ready,
+                State::Turning { id, since_s, then, .. } => {
+                    if !(has_ended(observation, *id) || now_s - since_s > TURN_TIMEOUT_S) {
                         return None;
                     }
-                    self.settle(now_s, now_s);
-                }
-                State::Settling { map_after_s, since_s } => {
-                    let waited_s = now_s - since_s;
-                    let Some(map) = &observation.map else {
-                        self.wait_for_map(now_s, "no map has come");
-                        return None;
+                    self.state = match *then {
+                        AfterTurn::Settle => State::Settling { since_s: now_s },
+                        // Maps that came on the way have been decided on below.
+                        AfterTurn::Confirm(turns) => State::Confirming { since_s: now_s, turns, version: 0 },
                     };
-                    if map.stamp_s < *map_after_s && waited_s < self.settings.patience.settle_s {
+                }
+                State::Ready => {
+                    let map = self.usable_map(now_s)?;
+                    return self.decide(observation, &map, pose);
+                }
+                State::Settling { since_s } => {
+                    let waited_s = now_s - since_s;
+                    let map = self.usable_map(now_s)?;
+                    if !self.watch.is_fresh() && waited_s < self.settings.patience.settle_s {
                         return None;
                     }
-                    return self.decide(observation, map, pose);
+                    return self.decide(observation, &map, pose);
                 }
-                State::Driving(_) => return self.drive(observation, pose),
+                State::Confirming { .. } => return self.confirm(observation, pose),
+                State::Driving(_) => {
+                    let record = self.drive(observation, pose);
+                    if record.is_some() || !matches!(self.state, State::Ready) {
+                        return record;
+                    }
+                }
+                State::BackingOff { id, from, since_s } => {
+                    if !(has_ended(observation, *id) || now_s - since_s > BACK_OFF_TIMEOUT_S) {
+                        return None;
+                    }
+                    let from = *from;
+                    self.end_of_back_off(pose, from);
+                    self.state = State::Ready;
+                }
+                State::Pausing { until_s } => {
+                    if now_s < *until_s {
+                        return None;
+                    }
+                    self.state = State::Ready;
+                }
                 State::Returning { id, end, since_s, .. } => {
                     let late = now_s - since_s > self.settings.patience.goal_timeout_s;
                     if !(late || has_ended(observation, *id)) {
@@ -185,78 +271,22 @@ impl Explorer {
         None
     }
 
-    /// A tick on the way to a goal.
-    fn drive(&mut self, observation: &Observation, pose: Pose) -> Option<DecisionRecord> {
-        let now_s = observation.stamp_s;
-        let patience = self.settings.patience;
-        let State::Driving(drive) = &mut self.state else { return None };
-        let (target, is_stage) = (drive.target, drive.is_stage);
-        let ours = observation.navigation.command == drive.id;
-        match &observation.navigation.state {
-            NavigationState::Succeeded if ours => {
-                self.counts.goals_reached += 1;
-                self.recoveries_in_a_row = 0;
-                if is_stage {
-                    self.settle(now_s, now_s);
-                    return None;
-                }
-                self.blacklist.record_visit(target);
-                if self.settings.turns.at_goal {
-                    self.look_round(now_s);
-                } else {
-                    self.settle(now_s, now_s);
-                }
-            }
-            NavigationState::Aborted(_) if ours => self.fail(target, now_s),
-            NavigationState::Preempted if ours => self.settle(now_s, now_s),
-            _ => {
-                let stuck_s = drive.progress.stuck_for_s(&pose, now_s, patience.progress_distance_m);
-                if stuck_s >= patience.progress_timeout_s || now_s - drive.since_s >= patience.goal_timeout_s {
-                    self.fail(target, now_s);
-                } else if let Some(map) = &observation.map {
-                    return self.reconsider(observation, map, pose);
-                }
-            }
+    /// The map that is believed; without one, the wait for it.
+    fn usable_map(&mut self, now_s: f64) -> Option<MapSnapshot> {
+        let map = self.watch.map().cloned();
+        if map.is_none() {
+            self.wait_for_map(now_s, "no map has come");
         }
-        None
-    }
-
-    /// On the way: decide anew when the goal turned out to be blocked, or when the
-    /// settings ask for it.
-    fn reconsider(&mut self, observation: &Observation, map: &MapSnapshot, pose: Pose) -> Option<DecisionRecord> {
-        let State::Driving(drive) = &mut self.state else { return None };
-        if map.stamp_s <= drive.considered_s {
-            return None;
-        }
-        let due = self
-            .settings
-            .goal
-            .reconsider_period_s
-            .is_some_and(|period_s| observation.stamp_s - drive.considered_s >= period_s);
-        let blocked = !self.lookout.can_stand(map, drive.goal.position());
-        if due || blocked {
-            return self.decide(observation, map, pose);
-        }
-        None
-    }
-
-    fn fail(&mut self, target: Point, now_s: f64) {
-        self.counts.goals_failed += 1;
-        self.blacklist.record_failure(target, now_s);
-        self.settle(now_s, now_s);
+        map
     }
 
     fn look_round(&mut self, now_s: f64) {
         self.counts.turns += 1;
-        self.turn(now_s);
+        self.turn(now_s, TAU, AfterTurn::Settle);
     }
 
-    fn turn(&mut self, now_s: f64) {
-        self.state = State::Turning { id: self.next_id(), since_s: now_s };
-    }
-
-    fn settle(&mut self, now_s: f64, map_after_s: f64) {
-        self.state = State::Settling { map_after_s, since_s: now_s };
+    fn turn(&mut self, now_s: f64, angle_rad: f64, then: AfterTurn) {
+        self.state = State::Turning { id: self.next_id(), angle_rad, since_s: now_s, then };
     }
 
     const fn next_id(&mut self) -> CommandId {

@@ -2,15 +2,22 @@
 
 use super::super::state::Phase;
 use super::*;
-use crate::explore::{PatienceSettings, TurnSettings};
-use crate::geometry::{Footprint, MotionLimits};
-use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
+use crate::explore::{PatienceSettings, Sight, TurnSettings};
+use crate::geometry::{Body, Footprint, MotionLimits};
+use crate::grid::{Cell, CellState, Inflation, OccupancyGrid, Thresholds};
 use crate::planning::{HybridAstarConfig, PlannerConfig};
-use crate::robot::{Command, Navigation, PoseError};
+use crate::robot::{Command, Navigation, NavigationState, PoseError};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-const POINT_ROBOT: Inflation = Inflation { inscribed_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
+/// A point with a lidar that sees three cells far.
+fn point_robot() -> RobotTraits {
+    let sight = Sight { range_m: 3.0, field_of_view_rad: TAU, heading_rad: 0.0 };
+    RobotTraits { inflation: POINT_ROBOT, body: BODY, sight }
+}
+
+const POINT_ROBOT: Inflation =
+    Inflation { inscribed_radius_m: 0.0, clear_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
 
 const BODY: Body = Body {
     footprint: Footprint::RadiusM(0.1),
@@ -25,7 +32,15 @@ struct Teleporter {
     stamp_s: f64,
     navigation: Navigation,
     aborts: bool,
+    moves: bool,
+    home: Pose,
     log: Vec<Command>,
+}
+
+/// A place between two, three quarters of a metre from the first.
+fn halfway(from: &Pose, to: &Pose) -> Pose {
+    let heading = Pose::facing(from.position(), to.position()).yaw;
+    Pose::new(from.x + 0.75 * heading.cos(), from.y + 0.75 * heading.sin(), heading)
 }
 
 impl Teleporter {
@@ -33,7 +48,8 @@ impl Teleporter {
         let world = OccupancyGrid::from_ascii(world).unwrap();
         let map = OccupancyGrid::filled(*world.info(), OccupancyGrid::UNKNOWN);
         let navigation = Navigation { command: 0, state: NavigationState::Idle };
-        Self { world, map, pose: Pose::new(x, y, 0.0), stamp_s: 0.0, navigation, aborts: false, log: Vec::new() }
+        let pose = Pose::new(x, y, 0.0);
+        Self { world, map, pose, stamp_s: 0.0, navigation, aborts: false, moves: true, home: pose, log: Vec::new() }
     }
 
     fn observation(&mut self) -> Observation {
@@ -50,7 +66,12 @@ impl Teleporter {
         Observation {
             stamp_s: self.stamp_s,
             pose_in_map: Ok(self.pose),
-            map: Some(MapSnapshot { stamp_s: self.stamp_s, grid: Arc::new(self.map.clone()), costmap: None }),
+            map: Some(MapSnapshot {
+                stamp_s: self.stamp_s,
+                version: self.stamp_s as u64,
+                grid: Arc::new(self.map.clone()),
+                costmap: None,
+            }),
             scan: None,
             navigation: self.navigation.clone(),
         }
@@ -59,8 +80,16 @@ impl Teleporter {
     fn obey(&mut self, command: &Command) {
         let (id, state) = match command {
             Command::Hold => (0, NavigationState::Idle),
-            Command::Turn { id, .. } => (*id, NavigationState::Succeeded),
-            Command::Drive { id, .. } if self.aborts => (*id, NavigationState::Aborted("no way".to_owned())),
+            Command::Turn { id, .. } | Command::BackOff { id } => (*id, NavigationState::Succeeded),
+            Command::Drive { id, goal_in_map } if self.aborts => {
+                if self.moves {
+                    // Now here, now there, and never to a goal.
+                    let home = self.home;
+                    self.pose =
+                        if self.pose.distance_to(home.position()) > 0.1 { home } else { halfway(&home, goal_in_map) };
+                }
+                (*id, NavigationState::Aborted("no way".to_owned()))
+            }
             Command::Drive { id, goal_in_map } => {
                 self.pose = *goal_in_map;
                 (*id, NavigationState::Succeeded)
@@ -73,7 +102,7 @@ impl Teleporter {
     }
 
     fn explore(&mut self, settings: ExplorerSettings) -> (End, Explorer) {
-        let mut explorer = Explorer::new(settings, POINT_ROBOT, &BODY).unwrap();
+        let mut explorer = Explorer::new(settings, &point_robot()).unwrap();
         for _ in 0..2000 {
             let observation = self.observation();
             let decision = explorer.step(&observation);
@@ -130,7 +159,7 @@ fn without_turns_it_drives_at_once() {
 #[test]
 fn the_nearest_goal_comes_first() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
-    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT, &BODY).unwrap();
+    let mut explorer = Explorer::new(ExplorerSettings::default(), &point_robot()).unwrap();
     let record = loop {
         let decision = explorer.step(&robot.observation());
         robot.obey(&decision.command);
@@ -153,6 +182,17 @@ fn goals_that_fail_end_in_all_unreachable_after_the_recovery_turns() {
     assert!(end.left_behind.failed > 0 && end.left_behind.unreachable == 0);
     assert_eq!(explorer.counts().recoveries, 2);
     assert!(explorer.counts().goals_failed >= 4);
+    assert!(end.time_s < 400.0, "a round without progress ends within minutes: {} s", end.time_s);
+}
+
+#[test]
+fn a_robot_that_does_not_get_away_is_stuck_and_says_so() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    (robot.aborts, robot.moves) = (true, false);
+    let (end, explorer) = robot.explore(ExplorerSettings::default());
+    assert_eq!(end.reason, EndReason::Stuck, "{}", end.message);
+    assert!(explorer.counts().back_offs >= 1 && robot.log.iter().any(|c| matches!(c, Command::BackOff { .. })));
+    assert!(end.time_s < 400.0, "{} s", end.time_s);
 }
 
 #[test]
@@ -186,7 +226,7 @@ fn returns_to_where_it_began() {
 #[test]
 fn a_lost_pose_pauses_and_ends_only_when_it_lasts() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
-    let mut explorer = Explorer::new(ExplorerSettings::default(), POINT_ROBOT, &BODY).unwrap();
+    let mut explorer = Explorer::new(ExplorerSettings::default(), &point_robot()).unwrap();
     let mut lost = robot.observation();
     lost.pose_in_map = Err(PoseError::NotYet {
         map_frame: "map".to_owned(),
@@ -207,7 +247,7 @@ fn no_map_and_no_time_have_their_own_ends() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
     let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
     let settings = ExplorerSettings { turns, ..ExplorerSettings::default() };
-    let mut explorer = Explorer::new(settings.clone(), POINT_ROBOT, &BODY).unwrap();
+    let mut explorer = Explorer::new(settings.clone(), &point_robot()).unwrap();
     let mut blind = robot.observation();
     blind.map = None;
     let mut end = None;
@@ -226,7 +266,7 @@ fn no_map_and_no_time_have_their_own_ends() {
 fn a_robot_off_its_map_waits_for_a_better_one() {
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
     let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
-    let mut explorer = Explorer::new(ExplorerSettings { turns, ..Default::default() }, POINT_ROBOT, &BODY).unwrap();
+    let mut explorer = Explorer::new(ExplorerSettings { turns, ..Default::default() }, &point_robot()).unwrap();
     let mut off = robot.observation();
     off.pose_in_map = Ok(Pose::new(-50.0, 0.0, 0.0));
     for tick in 0..30 {
@@ -247,7 +287,7 @@ fn a_goal_too_far_for_the_planner_is_approached_in_stages() {
     let settings =
         ExplorerSettings { planner: PlannerConfig::HybridAstar(hybrid), turns, ..ExplorerSettings::default() };
     let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
-    let mut explorer = Explorer::new(settings, POINT_ROBOT, &BODY).unwrap();
+    let mut explorer = Explorer::new(settings, &point_robot()).unwrap();
     let mut stages = 0;
     for _ in 0..2000 {
         let decision = explorer.step(&robot.observation());

@@ -1,23 +1,35 @@
 //! The explorer: a pure state machine from observations to decisions (floor 2).
 
 mod assess;
+mod audit;
+mod behind;
 mod blacklist;
 mod decide;
 mod explorer;
+mod ledger;
+mod map_watch;
 mod progress;
 mod record;
 mod run;
 mod settings;
+mod sight;
 mod stages;
 mod standing;
 mod state;
+mod traits;
+mod trouble;
 
 pub use blacklist::{Blacklist, Taboo, TabooConfig};
 pub use explorer::Explorer;
+pub use ledger::TimeSpent;
 pub use record::{
     CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position, SeenFrontier,
 };
 pub use run::{Watcher, run};
-pub use settings::{DetectorSettings, ExplorerSettings, GoalSettings, PatienceSettings, SettingsError, TurnSettings};
+pub use settings::{
+    DetectorSettings, ExplorerSettings, FinishSettings, GoalSettings, PatienceSettings, SettingsError, TurnSettings,
+};
+pub use sight::Sight;
 pub use standing::GoalHeading;
 pub use state::{Decision, Phase};
+pub use traits::RobotTraits;

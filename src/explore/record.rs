@@ -44,7 +44,9 @@ pub enum CandidateStatus {
     Taboo,
     /// It lies outside the region to explore.
     OutsideRegion,
-    /// The robot stands there already.
+    /// The robot's body does not fit through: a crack in a wall, a gap between two legs.
+    TooNarrow,
+    /// The robot stands where it is seen from: a newer map tells what becomes of it.
     AlreadyThere,
 }
 
@@ -92,8 +94,14 @@ pub struct DecisionRecord {
 pub enum EndReason {
     /// No frontier is left that the robot could get to.
     Complete,
+    /// Little enough is left, by the share that was asked for.
+    GoodEnough,
+    /// The preset's own rules forbid to go on, though frontiers are left.
+    PresetSeesNoMore,
     /// Frontiers are left, and no way to any of them.
     AllUnreachable,
+    /// Frontiers are left, and the robot cannot get away from where it is.
+    Stuck,
     /// Frontiers are left, all of them outside the region to explore.
     OutsideRegion,
     /// Nobody carried commands out for too long.
@@ -118,7 +126,10 @@ impl EndReason {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Complete => "complete",
+            Self::GoodEnough => "good_enough",
+            Self::PresetSeesNoMore => "preset_sees_no_more",
             Self::AllUnreachable => "all_unreachable",
+            Self::Stuck => "stuck",
             Self::OutsideRegion => "outside_region",
             Self::NoNavigation => "no_navigation",
             Self::NoMap => "no_map",
@@ -133,12 +144,13 @@ impl EndReason {
     /// Whether all was done that could be asked for.
     #[must_use]
     pub const fn is_success(self) -> bool {
-        matches!(self, Self::Complete | Self::OutsideRegion | Self::RecordingEnded)
+        matches!(self, Self::Complete | Self::GoodEnough | Self::OutsideRegion | Self::RecordingEnded)
     }
 }
 
 /// How many frontiers were left at the end, by the reason for leaving them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct LeftBehind {
     /// Frontiers of the last detection.
     pub frontiers: usize,
@@ -146,10 +158,16 @@ pub struct LeftBehind {
     pub unreachable: usize,
     /// Driving there failed too often.
     pub failed: usize,
-    /// Visited, and nothing more could be seen.
+    /// Seen from nearby, and nothing more could be seen.
     pub exhausted: usize,
     /// Outside the region to explore.
     pub outside_region: usize,
+    /// Openings that the robot does not fit through.
+    pub too_narrow: usize,
+    /// Of all these but the ones outside the region, cells times resolution, metres.
+    pub length_m: f64,
+    /// The unknown area at most 1.5 m behind these, square metres; counted at the end.
+    pub area_m2: f64,
 }
 
 /// The end of a run.
@@ -178,6 +196,9 @@ pub struct Counts {
     pub turns: usize,
     /// Recovery turns made because no way was found.
     pub recoveries: usize,
+    /// Times that the robot got away from what stood too near.
+    #[serde(default)]
+    pub back_offs: usize,
     /// Times that frontiers were detected.
     pub detections: usize,
 }

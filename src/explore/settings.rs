@@ -88,9 +88,18 @@ pub struct PatienceSettings {
     pub progress_distance_m: f64,
     /// The longest that one goal may take, seconds.
     pub goal_timeout_s: f64,
-    /// How long a map that shows the newest sights is waited for, seconds; then the
-    /// last one serves (gmapping sends none while the robot stands).
+    /// How long a map that shows the newest sights is waited for before a small turn
+    /// brings one, seconds: gmapping sends none while the robot stands. Only an end, and
+    /// presets that turn round at their goals, wait for it.
     pub settle_s: f64,
+    /// A robot that is sent to a goal and stands still for so long is sent elsewhere,
+    /// seconds.
+    pub stall_s: f64,
+    /// A pose that is unknown for less than this leaves the goal under way, seconds.
+    pub pose_grace_s: f64,
+    /// While frontiers are left and each attempt fails, the robot goes on trying for this
+    /// time in all, with growing pauses, seconds.
+    pub failing_s: f64,
     /// The run ends when no usable map came for so long, seconds.
     pub map_timeout_s: f64,
     /// The run ends when the robot did not know where it was for so long, seconds.
@@ -107,12 +116,33 @@ impl Default for PatienceSettings {
             progress_timeout_s: 20.0,
             progress_distance_m: 0.25,
             goal_timeout_s: 300.0,
-            settle_s: 5.0,
+            settle_s: 2.5,
+            stall_s: 5.0,
+            pose_grace_s: 1.0,
+            failing_s: 120.0,
             map_timeout_s: 60.0,
             pose_timeout_s: 60.0,
             navigation_timeout_s: 60.0,
             time_limit_s: None,
         }
+    }
+}
+
+/// When a run is over.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FinishSettings {
+    /// Go on to frontiers that the preset's own detector does not see, where the check
+    /// before the end finds some. Without it such a run ends `preset_sees_no_more`.
+    pub explore_what_the_audit_sees: bool,
+    /// End `good_enough` once this share of the free area is known, the area behind the
+    /// frontiers left being an estimate; never when absent.
+    pub good_enough_share: Option<f64>,
+}
+
+impl Default for FinishSettings {
+    fn default() -> Self {
+        Self { explore_what_the_audit_sees: true, good_enough_share: None }
     }
 }
 
@@ -158,6 +188,8 @@ pub struct ExplorerSettings {
     pub taboo: TabooConfig,
     /// How long is waited for what.
     pub patience: PatienceSettings,
+    /// When the run is over.
+    pub finish: FinishSettings,
     /// Only frontiers inside are explored: corners [x, y] in metres of the map frame.
     pub region: Option<Polygon>,
     /// Drive back to where the run began before it ends.
@@ -177,6 +209,7 @@ impl ExplorerSettings {
             ("patience.progress_timeout_s", patience.progress_timeout_s),
             ("patience.progress_distance_m", patience.progress_distance_m),
             ("patience.goal_timeout_s", patience.goal_timeout_s),
+            ("patience.stall_s", patience.stall_s),
             ("patience.map_timeout_s", patience.map_timeout_s),
             ("patience.pose_timeout_s", patience.pose_timeout_s),
             ("patience.navigation_timeout_s", patience.navigation_timeout_s),
@@ -184,6 +217,7 @@ impl ExplorerSettings {
             ("taboo.radius_m", taboo.radius_m),
             ("taboo.max_failures", f64::from(taboo.max_failures)),
             ("taboo.max_visits", f64::from(taboo.max_visits)),
+            ("finish.good_enough_share", self.finish.good_enough_share.unwrap_or(1.0)),
         ] {
             OutOfRange::unless_positive(key, value)?;
         }
@@ -191,10 +225,13 @@ impl ExplorerSettings {
             ("goal.already_there_m", goal.already_there_m),
             ("goal.commit_radius_m", goal.commit_radius_m),
             ("patience.settle_s", patience.settle_s),
-            ("taboo.expiry_s", taboo.expiry_s),
+            ("patience.pose_grace_s", patience.pose_grace_s),
+            ("patience.failing_s", patience.failing_s),
         ] {
             OutOfRange::unless_not_negative(key, value)?;
         }
+        let share = self.finish.good_enough_share.unwrap_or(1.0);
+        OutOfRange::unless(share <= 1.0, "finish.good_enough_share", share, "above 0 and at most 1")?;
         self.planner.validate()?;
         self.selection.validate()?;
         Ok(self.detector_params().validate()?)

@@ -1,7 +1,7 @@
 //! Where to stand for a frontier.
 
 use crate::geometry::{Point, Pose};
-use crate::grid::{Cell, LETHAL_COST, NEIGHBOURS_8};
+use crate::grid::{Cell, Costmap, LETHAL_COST, NARROW_COST, NEIGHBOURS_8, UNKNOWN_COST};
 use crate::planning::PathField;
 use serde::{Deserialize, Serialize};
 
@@ -14,6 +14,31 @@ pub enum GoalHeading {
     TowardFrontier,
     /// As it comes from where it is now: no turn on arrival.
     AsApproached,
+}
+
+/// What kind of place is looked for.
+pub struct StandingGoal<'a> {
+    /// At most this far from the target, metres.
+    pub radius_m: f64,
+    /// Which way the robot looks there.
+    pub heading: GoalHeading,
+    /// Whether a place is not to be tried.
+    pub refused: &'a dyn Fn(Point) -> bool,
+}
+
+/// A place keeps this many cells from what the robot's centre cannot be in.
+const MARGIN_CELLS: i32 = 2;
+/// For that it may lie this much farther from the target, metres.
+const DETOUR_M: f64 = 0.5;
+
+/// How many cells all round a cell are clear of obstacles with the robot's radius and
+/// padding: none at the rim, two at most, and -1 where it cannot turn.
+fn margin_cells(costmap: &Costmap, cell: Cell) -> i32 {
+    let is_clear = |around: i32| {
+        let offsets = (-around..=around).flat_map(|dy| (-around..=around).map(move |dx| (dx, dy)));
+        offsets.map(|offset| costmap.cost(cell.offset(offset))).all(|cost| cost < NARROW_COST || cost == UNKNOWN_COST)
+    };
+    (0..=MARGIN_CELLS).take_while(|&around| is_clear(around)).last().unwrap_or(-1)
 }
 
 /// Looks for places to stand; kept for its memory, as a decision asks for hundreds.
@@ -34,28 +59,25 @@ const ALWAYS: u32 = u32::MAX;
 impl StandingSearch {
     /// The place nearest to `target` where the robot can stand and to which it can get,
     /// found by a flood that no obstacle lets through: never a place on the other side of
-    /// a wall. `None` when there is none within `radius_m`.
-    pub fn goal(
-        &mut self,
-        field: &PathField,
-        robot: &Pose,
-        target: Point,
-        radius_m: f64,
-        heading: GoalHeading,
-    ) -> Option<Pose> {
+    /// a wall. A place that keeps two cells from what the robot's centre cannot be in is
+    /// taken rather than one that does not, where it is little farther off: planners that
+    /// compute with other roundings, or on a map of a second later, refuse the rim. Where
+    /// the robot can stand and cannot turn there is no place to stand.
+    /// `refused` are places that have failed. `None` when there is none within `radius_m`.
+    pub fn goal(&mut self, field: &PathField, robot: &Pose, target: Point, search: &StandingGoal<'_>) -> Option<Pose> {
         let info = field.costmap().info();
-        let place = info.center(self.nearest_place(field, info.cell_at(target), radius_m)?);
-        let yaw = match heading {
+        let place = info.goal_point(self.best_place(field, info.cell_at(target), search)?);
+        let yaw = match search.heading {
             GoalHeading::TowardFrontier => Pose::facing(place, target).yaw,
             GoalHeading::AsApproached => Pose::facing(robot.position(), place).yaw,
         };
         Some(Pose::new(place.x, place.y, yaw))
     }
 
-    fn nearest_place(&mut self, field: &PathField, center: Cell, radius_m: f64) -> Option<Cell> {
+    fn best_place(&mut self, field: &PathField, center: Cell, search: &StandingGoal<'_>) -> Option<Cell> {
         let costmap = field.costmap();
         let info = costmap.info();
-        let reach = info.cells(radius_m).ceil().min(MAX_REACH_CELLS) as i32;
+        let reach = info.cells(search.radius_m).ceil().min(MAX_REACH_CELLS) as i32;
         if !field.reaches_near(center, reach.unsigned_abs()) {
             return None;
         }
@@ -64,11 +86,23 @@ impl StandingSearch {
         let middle = self.met.len() / 2;
         self.queue.push((center, middle));
         self.met[middle] = self.search;
+        let mut best: Option<(i32, Cell)> = None;
+        let mut enough_cells = f64::INFINITY;
         let mut next = 0;
         while let Some(&(cell, slot)) = self.queue.get(next) {
             next += 1;
-            if field.reaches(cell) {
-                return Some(cell);
+            let away_cells = (cell.distance_squared(center) as f64).sqrt();
+            if away_cells <= enough_cells && field.reaches(cell) && !(search.refused)(info.center(cell)) {
+                let margin = margin_cells(costmap, cell);
+                if margin >= 0 && best.is_none() {
+                    enough_cells = away_cells + info.cells(DETOUR_M);
+                }
+                if margin >= 0 && best.is_none_or(|(widest, _)| margin > widest) {
+                    best = Some((margin, cell));
+                }
+                if margin >= MARGIN_CELLS {
+                    break;
+                }
             }
             for (dx, dy) in NEIGHBOURS_8 {
                 let beside = slot.wrapping_add_signed(dy as isize * side + dx as isize);
@@ -83,7 +117,7 @@ impl StandingSearch {
                 }
             }
         }
-        None
+        best.map(|(_, cell)| cell)
     }
 
     /// Makes ready for a search that goes this many cells far.
@@ -110,19 +144,30 @@ const MAX_REACH_CELLS: f64 = 1000.0;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::{Costmap, Inflation, OccupancyGrid, Thresholds};
+    use crate::grid::{Inflation, OccupancyGrid, Thresholds};
     use std::sync::Arc;
 
     fn goal(drawing: &str, target: (f64, f64), radius_m: f64) -> Option<(f64, f64)> {
         let grid = OccupancyGrid::from_ascii(drawing).unwrap();
-        let inflation = Inflation { inscribed_radius_m: 1.0, inflation_radius_m: 1.0, cost_scaling_factor: 1.0 };
+        let inflation = Inflation {
+            inscribed_radius_m: 1.0,
+            clear_radius_m: 0.0,
+            inflation_radius_m: 1.0,
+            cost_scaling_factor: 1.0,
+        };
         let costmap = Arc::new(Costmap::inflate(&grid, &Thresholds::default(), &inflation));
         let robot = Pose::new(1.5, 1.5, 0.0);
         let field = PathField::new(costmap, &robot).unwrap();
         let target = Point::new(target.0, target.1);
         StandingSearch::default()
-            .goal(&field, &robot, target, radius_m, GoalHeading::TowardFrontier)
-            .map(|p| (p.x, p.y))
+            .goal(
+                &field,
+                &robot,
+                target,
+                &StandingGoal { radius_m, heading: GoalHeading::TowardFrontier, refused: &|_| false },
+            )
+            .map(|p| field.costmap().info().cell_at(p.position()))
+            .map(|cell| (f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5))
     }
 
     #[test]

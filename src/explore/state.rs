@@ -5,7 +5,6 @@ use super::record::{DecisionRecord, End};
 use crate::geometry::{Point, Pose};
 use crate::robot::{Command, CommandId, NavigationState, Observation};
 use serde::Serialize;
-use std::f64::consts::TAU;
 
 /// What the explorer is about, for status displays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -21,6 +20,10 @@ pub enum Phase {
     Turning,
     /// Drives to a goal.
     Driving,
+    /// Gets away from what it touches.
+    BackingOff,
+    /// Rests before it tries again what has failed.
+    Pausing,
     /// Drives back to where it began.
     Returning,
     /// Is done.
@@ -36,6 +39,8 @@ pub struct Decision {
     pub phase: Phase,
     /// Present when frontiers were weighed in this step.
     pub record: Option<DecisionRecord>,
+    /// Something that the user should know of: what is waited for, what was passed over.
+    pub notice: Option<String>,
     /// Present once the run has ended.
     pub end: Option<End>,
 }
@@ -57,6 +62,8 @@ pub struct Drive {
     pub progress: ProgressMonitor,
     /// Stamp of the newest map that was considered on the way, seconds.
     pub considered_s: f64,
+    /// Its version.
+    pub considered_version: u64,
 }
 
 /// Where the explorer is in its round.
@@ -65,14 +72,35 @@ pub enum State {
     Begin,
     Turning {
         id: CommandId,
+        angle_rad: f64,
+        since_s: f64,
+        /// Where to go on afterwards.
+        then: AfterTurn,
+    },
+    /// Decides on the map that is there.
+    Ready,
+    /// Decides on a map that came after the last motion, or on the last one after a while.
+    Settling {
         since_s: f64,
     },
-    /// Waits for a map made at `map_after_s` or later.
-    Settling {
-        map_after_s: f64,
+    /// Nothing is left to choose on this map: only one that came after the last motion may
+    /// end the run. Decides on every map that comes.
+    Confirming {
         since_s: f64,
+        /// Small turns made to bring a map.
+        turns: u32,
+        /// The map that was decided on last.
+        version: u64,
     },
     Driving(Drive),
+    BackingOff {
+        id: CommandId,
+        from: Point,
+        since_s: f64,
+    },
+    Pausing {
+        until_s: f64,
+    },
     Returning {
         id: CommandId,
         goal: Pose,
@@ -82,34 +110,51 @@ pub enum State {
     Ended(End),
 }
 
+/// How the explorer goes on after a turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AfterTurn {
+    /// It looked about: a map that shows it is waited for.
+    Settle,
+    /// It moved to bring a map, for the so manieth time.
+    Confirm(u32),
+}
+
 impl State {
     /// The command under way.
     pub const fn command_id(&self) -> Option<CommandId> {
         match self {
-            Self::Turning { id, .. } | Self::Returning { id, .. } => Some(*id),
+            Self::Turning { id, .. } | Self::Returning { id, .. } | Self::BackingOff { id, .. } => Some(*id),
             Self::Driving(drive) => Some(drive.id),
-            Self::Begin | Self::Settling { .. } | Self::Ended(_) => None,
+            _ => None,
         }
     }
 
     /// Lets the time allowed for the command under way begin anew.
     pub const fn restart_timers(&mut self, now_s: f64) {
         match self {
-            Self::Turning { since_s, .. } | Self::Returning { since_s, .. } => *since_s = now_s,
+            Self::Turning { since_s, .. }
+            | Self::Returning { since_s, .. }
+            | Self::BackingOff { since_s, .. }
+            | Self::Settling { since_s }
+            | Self::Confirming { since_s, .. } => *since_s = now_s,
             Self::Driving(drive) => {
                 drive.since_s = now_s;
                 drive.progress.pause(now_s);
             }
-            Self::Begin | Self::Settling { .. } | Self::Ended(_) => {}
+            Self::Begin | Self::Ready | Self::Pausing { .. } | Self::Ended(_) => {}
         }
     }
 
     /// What this state asks of the robot.
     pub fn decision(&self, record: Option<DecisionRecord>) -> Decision {
         let (phase, command) = match self {
-            Self::Begin | Self::Settling { .. } => (Phase::WaitingForMap, Command::Hold),
-            Self::Turning { id, .. } => (Phase::Turning, Command::Turn { id: *id, angle_rad: TAU }),
+            Self::Begin | Self::Ready | Self::Settling { .. } | Self::Confirming { .. } => {
+                (Phase::WaitingForMap, Command::Hold)
+            }
+            Self::Turning { id, angle_rad, .. } => (Phase::Turning, Command::Turn { id: *id, angle_rad: *angle_rad }),
             Self::Driving(drive) => (Phase::Driving, Command::Drive { id: drive.id, goal_in_map: drive.goal }),
+            Self::BackingOff { id, .. } => (Phase::BackingOff, Command::BackOff { id: *id }),
+            Self::Pausing { .. } => (Phase::Pausing, Command::Hold),
             Self::Returning { id, goal, .. } => (Phase::Returning, Command::Drive { id: *id, goal_in_map: *goal }),
             Self::Ended(_) => (Phase::Ended, Command::Hold),
         };
@@ -117,7 +162,7 @@ impl State {
             Self::Ended(end) => Some(end.clone()),
             _ => None,
         };
-        Decision { command, phase, record, end }
+        Decision { command, phase, record, notice: None, end }
     }
 }
 

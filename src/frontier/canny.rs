@@ -184,7 +184,12 @@ mod tests {
     #[test]
     fn what_the_costmap_blocks_is_no_frontier() {
         let grid = room();
-        let inflation = Inflation { inscribed_radius_m: 0.4, inflation_radius_m: 0.5, cost_scaling_factor: 1.0 };
+        let inflation = Inflation {
+            inscribed_radius_m: 0.4,
+            clear_radius_m: 0.0,
+            inflation_radius_m: 0.5,
+            cost_scaling_factor: 1.0,
+        };
         let costmap = Costmap::inflate(&grid, &Thresholds::default(), &inflation);
         let found = detect(&grid, Some(&costmap));
         assert_eq!(found.len(), 1, "{found:?}");

@@ -68,6 +68,16 @@ impl Footprint {
         }
     }
 
+    /// Half the width in metres of the narrowest passage that the robot drives through
+    /// straight ahead with its base frame in the middle.
+    #[must_use]
+    pub fn passage_radius_m(&self) -> f64 {
+        match self {
+            Self::RadiusM(radius) => *radius,
+            Self::PolygonM(corners) => corners.iter().map(|[_, y]| y.abs()).fold(0.0, f64::max),
+        }
+    }
+
     /// Points on the outline at `pose`, at most `spacing_m` apart: where a
     /// collision check looks.
     #[must_use]

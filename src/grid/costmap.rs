@@ -3,12 +3,15 @@
 use super::{Cell, CellRect, GridInfo, OccupancyGrid, Thresholds, near, squared_distance_cells};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 
 /// Cost of open space.
 pub const FREE_COST: u8 = 0;
 /// Cost within the inscribed radius of an obstacle: the robot's centre here is a
 /// collision (costmap_2d's `INSCRIBED_INFLATED_OBSTACLE`).
 pub const INSCRIBED_COST: u8 = 253;
+/// The highest cost of a cell that the robot's centre may be in.
+pub const NARROW_COST: u8 = 252;
 /// Cost of an obstacle itself (costmap_2d's `LETHAL_OBSTACLE`).
 pub const LETHAL_COST: u8 = 254;
 /// Cost of a cell that nobody has seen (costmap_2d's `NO_INFORMATION`).
@@ -21,18 +24,23 @@ const MAX_REACH_CELLS: f64 = 1000.0;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Inflation {
-    /// Radius in metres of the largest disc inside the footprint.
+    /// Nearer than this to an obstacle the robot's centre cannot be, metres.
     pub inscribed_radius_m: f64,
+    /// From there up to this distance the robot's centre can be, though not with every
+    /// heading, or not with the padding that is wanted: such cells cost as much as a
+    /// passable cell can. Metres; nothing where it is less than the inscribed radius.
+    pub clear_radius_m: f64,
     /// How far from an obstacle costs reach, metres.
     pub inflation_radius_m: f64,
-    /// Rate of the exponential decay beyond the inscribed radius, per metre.
+    /// Rate of the exponential decay beyond both, per metre.
     pub cost_scaling_factor: f64,
 }
 
 impl Inflation {
     /// Cost at a distance in metres from the nearest obstacle, as
     /// `InflationLayer::computeCost` has it: lethal at 0, inscribed up to the
-    /// inscribed radius, then `252 exp(-cost_scaling_factor (d - inscribed))`.
+    /// inscribed radius, then `252 exp(-cost_scaling_factor (d - inscribed))`; here with
+    /// 252 up to the clear radius, from which the decay begins.
     #[must_use]
     pub fn cost(&self, distance_m: f64) -> u8 {
         if distance_m <= 0.0 {
@@ -40,14 +48,14 @@ impl Inflation {
         } else if distance_m <= self.inscribed_radius_m {
             INSCRIBED_COST
         } else {
-            let decay = (-self.cost_scaling_factor * (distance_m - self.inscribed_radius_m)).exp();
-            (f64::from(INSCRIBED_COST - 1) * decay) as u8
+            let beyond_m = (distance_m - self.inscribed_radius_m.max(self.clear_radius_m)).max(0.0);
+            (f64::from(NARROW_COST) * (-self.cost_scaling_factor * beyond_m).exp()) as u8
         }
     }
 
     /// How far costs reach, in whole cells: rounded up, as costmap_2d does.
     fn reach_cells(&self, resolution_m: f64) -> u32 {
-        let radius_m = self.inflation_radius_m.max(self.inscribed_radius_m);
+        let radius_m = self.inflation_radius_m.max(self.inscribed_radius_m).max(self.clear_radius_m);
         (radius_m / resolution_m).ceil().clamp(0.0, MAX_REACH_CELLS) as u32
     }
 
@@ -117,6 +125,30 @@ impl Costmap {
     #[must_use]
     pub fn from_costs(info: GridInfo, costs: Vec<u8>) -> Option<Self> {
         (costs.len() == info.len()).then_some(Self { info, costs })
+    }
+
+    /// The same costmap for a robot that keeps to where it can turn: what is passable at
+    /// the highest cost alone, as by [`Inflation::clear_radius_m`], is not. `None` where that
+    /// changes nothing.
+    #[must_use]
+    pub fn without_narrow(&self) -> Option<Self> {
+        if !self.costs.contains(&NARROW_COST) {
+            return None;
+        }
+        let costs = self.costs.iter().map(|&cost| if cost == NARROW_COST { INSCRIBED_COST } else { cost });
+        Some(Self { info: self.info, costs: costs.collect() })
+    }
+
+    /// The same costmap with other costs in some cells; those outside are left out.
+    #[must_use]
+    pub fn with_costs(&self, others: &HashMap<Cell, u8>) -> Self {
+        let mut costs = self.costs.clone();
+        for (&cell, &cost) in others {
+            if let Some(place) = self.info.index(cell).and_then(|index| costs.get_mut(index)) {
+                *place = cost;
+            }
+        }
+        Self { info: self.info, costs }
     }
 
     /// A costmap of as many costs as the grid has cells.
@@ -199,7 +231,7 @@ mod tests {
     use proptest::prelude::*;
 
     const INFLATION: Inflation =
-        Inflation { inscribed_radius_m: 1.0, inflation_radius_m: 3.0, cost_scaling_factor: 1.0 };
+        Inflation { inscribed_radius_m: 1.0, clear_radius_m: 0.0, inflation_radius_m: 3.0, cost_scaling_factor: 1.0 };
 
     #[test]
     fn costs_decay_as_costmap_2d_computes_them() {

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 /// The most cells a grid may have: 16384 x 16384.
 pub const MAX_CELLS: u64 = 1 << 28;
 
+/// Where in a cell goals lie, from its corner along both axes.
+const GOAL_IN_CELL: f64 = 0.55;
+
 /// Offsets to the four cells that share a side, in a fixed order.
 pub const NEIGHBOURS_4: [(i32, i32); 4] = [(1, 0), (-1, 0), (0, 1), (0, -1)];
 
@@ -237,6 +240,14 @@ impl GridInfo {
     #[must_use]
     pub fn center(&self, cell: Cell) -> Point {
         self.from_grid_units(f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5)
+    }
+
+    /// The point of a cell that is sent as a goal: a twentieth of a cell beyond the centre
+    /// along both axes. GlobalPlanner takes half a cell off and truncates, so that the
+    /// centre itself falls into the cell before wherever rounding has its way.
+    #[must_use]
+    pub fn goal_point(&self, cell: Cell) -> Point {
+        self.from_grid_units(f64::from(cell.x) + GOAL_IN_CELL, f64::from(cell.y) + GOAL_IN_CELL)
     }
 
     /// A length in metres as a number of cells.

@@ -62,3 +62,20 @@ fn floors_are_those_of_the_library() {
         assert_eq!(floor(value), value.floor() as i32, "{value}");
     }
 }
+
+/// Against the formulas of move_base's planners: costmap_2d's `worldToMap`, and
+/// GlobalPlanner's, which takes half a cell off and truncates.
+#[test]
+fn goals_lie_in_the_same_cell_for_every_planner() {
+    for (resolution, origin) in [(0.05_f32, -12.0), (0.05, -100.0), (0.025, 0.0), (0.1, -51.224_998), (0.02, 3.3)] {
+        let resolution_m = f64::from(resolution);
+        let info = GridInfo::new(10_000, 1, resolution_m, Pose::new(origin, origin, 0.0)).unwrap();
+        for x in 0..10_000 {
+            let goal = info.goal_point(Cell::new(x, 0));
+            let cells = (goal.x - origin) / resolution_m;
+            assert_eq!(cells as i32, x, "costmap_2d, {resolution} m from {origin}");
+            assert_eq!((cells - 0.5) as i32, x, "GlobalPlanner, {resolution} m from {origin}");
+            assert_eq!(info.cell_at(goal), Cell::new(x, 0));
+        }
+    }
+}

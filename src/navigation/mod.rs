@@ -5,14 +5,16 @@
 //! cannot be reached is aborted with a reason. Pure: time and sensing arrive as
 //! [`NavigationInput`].
 
+mod back_off;
 mod turn;
 
 use crate::control::{ControlInput, Controller};
-use crate::geometry::{Pose, Twist, shortest_angle};
+use crate::geometry::{Body, Point, Pose, Twist, shortest_angle};
 use crate::grid::Costmap;
-use crate::planning::{GlobalPlanner, Path, PlanError};
+use crate::planning::{Driven, GlobalPlanner, Path, PlanError};
 use crate::robot::{Command, CommandId, Navigation, NavigationState};
 use crate::scan::LaserScan;
+use back_off::BackOff;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use turn::Turn;
@@ -51,6 +53,9 @@ impl Default for NavigatorConfig {
     }
 }
 
+/// A path leads by a place when it comes this near, metres.
+const BESIDE_M: f64 = 0.3;
+
 /// What the navigator sees at one control tick.
 #[derive(Clone, Copy, Debug)]
 pub struct NavigationInput<'a> {
@@ -74,6 +79,7 @@ enum Activity {
     Idle,
     Drive(Drive),
     Turn { id: CommandId, turn: Turn },
+    BackOff { id: CommandId, back_off: BackOff },
     Ended(Navigation),
 }
 
@@ -91,6 +97,8 @@ struct Drive {
     blocked: Option<(f64, String)>,
     /// The position is reached; only the heading is left.
     arrived: bool,
+    /// Where paths turned out to be blocked.
+    blocked_at: Vec<Point>,
 }
 
 /// Plans, follows and reports.
@@ -98,21 +106,45 @@ pub struct Navigator {
     config: NavigatorConfig,
     planner: Box<dyn GlobalPlanner>,
     controller: Box<dyn Controller>,
+    body: Body,
     activity: Activity,
+    driven: Driven,
+    opened: Option<Opened>,
 }
 
+/// A costmap as it came, and as it is for this robot.
+struct Opened {
+    came: Arc<Costmap>,
+    /// Where it fits.
+    tight: Arc<Costmap>,
+    /// Where it can turn, which is planned for first.
+    roomy: Arc<Costmap>,
+    /// When that was, seconds.
+    since_s: f64,
+}
+
+/// Costmaps are opened anew for a robot that has moved on after this time, seconds.
+const OPENED_FOR_S: f64 = 2.0;
+
 impl Navigator {
-    /// A navigator at rest.
+    /// A navigator of a body, at rest.
     #[must_use]
-    pub fn new(config: NavigatorConfig, planner: Box<dyn GlobalPlanner>, controller: Box<dyn Controller>) -> Self {
-        Self { config, planner, controller, activity: Activity::Idle }
+    pub fn new(
+        config: NavigatorConfig,
+        planner: Box<dyn GlobalPlanner>,
+        controller: Box<dyn Controller>,
+        body: &Body,
+    ) -> Self {
+        let (body, driven) = (body.clone(), Driven::default());
+        Self { config, planner, controller, body, activity: Activity::Idle, driven, opened: None }
     }
 
     /// Takes a command; the id of the one under way changes nothing.
     pub fn command(&mut self, command: &Command) {
         match *command {
             Command::Hold => self.activity = Activity::Idle,
-            Command::Drive { id, .. } | Command::Turn { id, .. } if self.current() == Some(id) => {}
+            Command::Drive { id, .. } | Command::Turn { id, .. } | Command::BackOff { id }
+                if self.current() == Some(id) => {}
             Command::Drive { id, goal_in_map: goal } => {
                 self.controller.reset();
                 self.activity = Activity::Drive(Drive {
@@ -124,8 +156,10 @@ impl Navigator {
                     without_path: None,
                     blocked: None,
                     arrived: false,
+                    blocked_at: Vec::new(),
                 });
             }
+            Command::BackOff { id } => self.activity = Activity::BackOff { id, back_off: BackOff::new(&self.body) },
             Command::Turn { id, angle_rad } => {
                 self.activity = Activity::Turn { id, turn: Turn::new(angle_rad, self.config.turn_speed_rps) };
             }
@@ -143,6 +177,9 @@ impl Navigator {
 
     /// The velocity command until the next tick, and how the current command is doing.
     pub fn update(&mut self, input: &NavigationInput<'_>) -> (Twist, Navigation) {
+        self.driven.note(&input.pose_in_map);
+        let [tight, roomy] = self.open(input);
+        let input = &NavigationInput { costmap: &tight, ..*input };
         let (twist, navigation) = match &mut self.activity {
             Activity::Idle => return (Twist::ZERO, Navigation { command: 0, state: NavigationState::Idle }),
             Activity::Ended(navigation) => return (Twist::ZERO, navigation.clone()),
@@ -151,8 +188,13 @@ impl Navigator {
                 let state = if done { NavigationState::Succeeded } else { NavigationState::Active };
                 (twist, Navigation { command: *id, state })
             }
+            Activity::BackOff { id, back_off } => {
+                let (twist, state) = back_off.update(input);
+                (twist, Navigation { command: *id, state })
+            }
             Activity::Drive(drive) => {
-                let (twist, state) = drive.update(input, &self.config, &mut *self.planner, &mut *self.controller);
+                let (twist, state) =
+                    drive.update(input, &roomy, &self.config, &mut *self.planner, &mut *self.controller);
                 (twist, Navigation { command: drive.id, state })
             }
         };
@@ -162,11 +204,34 @@ impl Navigator {
         (twist, navigation)
     }
 
+    /// The costmap as it is for a robot that is where it is and came from where it came.
+    fn open(&mut self, input: &NavigationInput<'_>) -> [Arc<Costmap>; 2] {
+        let own = input.costmap.info().cell_at(input.pose_in_map.position());
+        let is_lost = matches!(&self.activity, Activity::Drive(drive) if drive.path.is_none());
+        if let Some(Opened { came, tight, roomy, since_s }) = &self.opened
+            && Arc::ptr_eq(came, input.costmap)
+            && tight.is_passable(own)
+            && !is_lost
+            && input.stamp_s - since_s < OPENED_FOR_S
+        {
+            return [Arc::clone(tight), Arc::clone(roomy)];
+        }
+        let came = Arc::clone(input.costmap);
+        let tight = self.driven.open(&came, &input.pose_in_map);
+        let roomy = match came.without_narrow() {
+            Some(roomy) => self.driven.open(&Arc::new(roomy), &input.pose_in_map),
+            None => Arc::clone(&tight),
+        };
+        let opened = [Arc::clone(&tight), Arc::clone(&roomy)];
+        self.opened = Some(Opened { came, tight, roomy, since_s: input.stamp_s });
+        opened
+    }
+
     fn current(&self) -> Option<CommandId> {
         match &self.activity {
             Activity::Idle => None,
             Activity::Drive(drive) => Some(drive.id),
-            Activity::Turn { id, .. } => Some(*id),
+            Activity::Turn { id, .. } | Activity::BackOff { id, .. } => Some(*id),
             Activity::Ended(navigation) => Some(navigation.command),
         }
     }
@@ -176,6 +241,7 @@ impl Drive {
     fn update(
         &mut self,
         input: &NavigationInput<'_>,
+        roomy: &Costmap,
         config: &NavigatorConfig,
         planner: &mut dyn GlobalPlanner,
         controller: &mut dyn Controller,
@@ -184,7 +250,7 @@ impl Drive {
         if self.arrived {
             return self.face_goal(input, config);
         }
-        self.replan(input, config, planner, controller);
+        self.replan(input, roomy, config, planner, controller);
         let Some(path) = &self.path else {
             return (Twist::ZERO, patience(&self.without_path, input.stamp_s, config.planner_patience_s));
         };
@@ -211,20 +277,33 @@ impl Drive {
     fn replan(
         &mut self,
         input: &NavigationInput<'_>,
+        roomy: &Costmap,
         config: &NavigatorConfig,
         planner: &mut dyn GlobalPlanner,
         controller: &mut dyn Controller,
     ) {
         let new_costmap = input.costmap_stamp_s != self.costmap_stamp_s;
         let old_plan = input.stamp_s - self.planned_s >= config.replan_period_s;
-        let blocked = new_costmap && self.path.as_ref().is_some_and(|path| is_blocked(path, input));
+        let obstacle = if new_costmap { self.path.as_ref().and_then(|path| first_blocked(path, input)) } else { None };
+        let blocked = obstacle.is_some();
+        self.blocked_at.extend(obstacle);
         let retry = self.path.is_none() && new_costmap;
         self.costmap_stamp_s = input.costmap_stamp_s;
         if !(old_plan || blocked || retry) {
             return;
         }
         self.planned_s = input.stamp_s;
-        match planner.plan(input.costmap, &input.pose_in_map, &self.goal) {
+        let (pose, goal) = (input.pose_in_map, self.goal);
+        let by_room = planner.plan(roomy, &pose, &goal);
+        let planned = match by_room {
+            Err(PlanError::IterationLimit { .. }) | Ok(_) => by_room,
+            // Only where there is no other way: where the robot fits and cannot turn.
+            Err(_) => planner.plan(input.costmap, &pose, &goal),
+        };
+        match planned {
+            // A gap that opens from afar and closes from nearby would make the robot run to
+            // and fro: a way that is free is kept against one by where another was blocked.
+            Ok(path) if !blocked && self.path.is_some() && self.leads_by_obstacle(&path) => {}
             Ok(path) => {
                 self.path = Some(path);
                 self.without_path = None;
@@ -233,13 +312,23 @@ impl Drive {
             // A path that is still free serves on when the planner gave up its search for
             // a newer one: the goal may be too far from here for its limit.
             Err(PlanError::IterationLimit { .. })
-                if self.path.as_ref().is_some_and(|path| !is_blocked(path, input)) => {}
+                if self.path.as_ref().is_some_and(|path| first_blocked(path, input).is_none()) => {}
             Err(error) => {
                 self.path = None;
                 let since = self.without_path.take().map_or(input.stamp_s, |(since, _)| since);
                 self.without_path = Some((since, error.to_string()));
             }
         }
+    }
+
+    /// Whether a path leads by a place where another one was blocked, and the path under
+    /// way does not.
+    fn leads_by_obstacle(&self, path: &Path) -> bool {
+        let meets = |path: &Path| {
+            let near = |place: &Point| path.poses.iter().any(|pose| pose.distance_to(*place) <= BESIDE_M);
+            self.blocked_at.iter().any(near)
+        };
+        meets(path) && !self.path.as_ref().is_some_and(meets)
     }
 
     /// Turns on the spot until the heading is the goal's.
@@ -262,8 +351,8 @@ fn patience(trouble: &Option<(f64, String)>, now_s: f64, limit_s: f64) -> Naviga
     }
 }
 
-/// Whether the part of a path still ahead touches a blocked cell.
-fn is_blocked(path: &Path, input: &NavigationInput<'_>) -> bool {
+/// The first place on the part of a path still ahead that is blocked.
+fn first_blocked(path: &Path, input: &NavigationInput<'_>) -> Option<Point> {
     let here = input.pose_in_map.position();
     let nearest = path
         .poses
@@ -272,7 +361,8 @@ fn is_blocked(path: &Path, input: &NavigationInput<'_>) -> bool {
         .min_by(|a, b| a.1.distance_to(here).total_cmp(&b.1.distance_to(here)))
         .map_or(0, |(index, _)| index);
     let info = input.costmap.info();
-    path.poses.iter().skip(nearest + 1).any(|pose| !input.costmap.is_passable(info.cell_at(pose.position())))
+    let ahead = path.poses.iter().skip(nearest + 1).map(Pose::position);
+    ahead.into_iter().find(|&point| !input.costmap.is_passable(info.cell_at(point)))
 }
 
 #[cfg(test)]

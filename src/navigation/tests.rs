@@ -18,8 +18,8 @@ fn costmap(blocked: impl Fn(Cell) -> bool) -> Arc<Costmap> {
 
 fn navigator() -> Navigator {
     let body = Body { footprint: Footprint::RadiusM(0.18), limits: LIMITS };
-    let follower = PathFollower::new(FollowerConfig::default(), body);
-    Navigator::new(NavigatorConfig::default(), Box::new(Astar::default()), Box::new(follower))
+    let follower = PathFollower::new(FollowerConfig::default(), body.clone());
+    Navigator::new(NavigatorConfig::default(), Box::new(Astar::default()), Box::new(follower), &body)
 }
 
 /// Runs until the command has ended; the costmap may change with time.
@@ -98,9 +98,9 @@ impl GlobalPlanner for GivesUp {
 #[test]
 fn a_free_path_serves_on_when_the_planner_gives_up() {
     let body = Body { footprint: Footprint::RadiusM(0.18), limits: LIMITS };
-    let follower = PathFollower::new(FollowerConfig::default(), body);
+    let follower = PathFollower::new(FollowerConfig::default(), body.clone());
     let planner = GivesUp(Astar::default(), false);
-    let mut navigator = Navigator::new(NavigatorConfig::default(), Box::new(planner), Box::new(follower));
+    let mut navigator = Navigator::new(NavigatorConfig::default(), Box::new(planner), Box::new(follower), &body);
     navigator.command(&Command::Drive { id: 1, goal_in_map: Pose::new(8.0, 5.0, 0.0) });
     let input = |stamp_s, costmap| NavigationInput {
         stamp_s,

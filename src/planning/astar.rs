@@ -38,7 +38,8 @@ mod tests {
     use super::*;
     use crate::grid::{Cell, Inflation, OccupancyGrid, Thresholds};
 
-    const BARE: Inflation = Inflation { inscribed_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
+    const BARE: Inflation =
+        Inflation { inscribed_radius_m: 0.0, clear_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
 
     fn costmap(drawing: &str) -> Costmap {
         Costmap::inflate(&OccupancyGrid::from_ascii(drawing).unwrap(), &Thresholds::default(), &BARE)

@@ -209,7 +209,7 @@ mod tests {
             }
             values[start] = 0;
             let grid = OccupancyGrid::new(info, values).unwrap();
-            let inflation = Inflation { inscribed_radius_m: 0.5, inflation_radius_m, cost_scaling_factor: 1.0 };
+            let inflation = Inflation { inscribed_radius_m: 0.5, clear_radius_m: 0.0, inflation_radius_m, cost_scaling_factor: 1.0 };
             let costmap = Costmap::inflate(&grid, &Thresholds::default(), &inflation);
             costs_are_those_of_the_plain_search(&costmap, start);
         }

@@ -49,6 +49,12 @@ impl PathField {
         &self.costmap
     }
 
+    /// The area that the robot's centre can get to, square metres.
+    #[must_use]
+    pub fn area_m2(&self) -> f64 {
+        self.reach.count() as f64 * self.costmap.info().cell_area_m2()
+    }
+
     /// Whether the robot can get to a cell.
     #[must_use]
     pub fn reaches(&self, cell: Cell) -> bool {
@@ -85,7 +91,8 @@ mod tests {
     use crate::grid::{GridInfo, Inflation, OccupancyGrid, Thresholds};
     use proptest::prelude::*;
 
-    const BARE: Inflation = Inflation { inscribed_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
+    const BARE: Inflation =
+        Inflation { inscribed_radius_m: 0.0, clear_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
 
     #[test]
     fn ways_lead_round_walls_and_stop_at_them() {

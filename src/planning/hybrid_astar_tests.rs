@@ -29,7 +29,8 @@ fn room(body: &Body, blocked: impl Fn(Cell) -> bool) -> Costmap {
         }
     }
     let inscribed_radius_m = body.footprint.inscribed_radius_m() + 0.01;
-    let inflation = Inflation { inscribed_radius_m, inflation_radius_m: 0.5, cost_scaling_factor: 5.0 };
+    let inflation =
+        Inflation { inscribed_radius_m, clear_radius_m: 0.0, inflation_radius_m: 0.5, cost_scaling_factor: 5.0 };
     Costmap::inflate(&grid, &Thresholds::default(), &inflation)
 }
 

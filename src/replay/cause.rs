@@ -33,6 +33,7 @@ pub fn cause(record: &DecisionRecord, theirs: &Pose) -> (&'static str, String) {
         CandidateStatus::Unreachable => "its frontier was unreachable to us",
         CandidateStatus::Taboo => "its frontier was taboo to us",
         CandidateStatus::OutsideRegion => "its frontier lies outside of our region",
+        CandidateStatus::TooNarrow => "its frontier is too narrow for the robot",
         CandidateStatus::AlreadyThere => "its frontier lies where the robot stands",
     };
     (cause, detail)

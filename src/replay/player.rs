@@ -139,12 +139,18 @@ impl<R: Read + Seek> Player<R> {
             Told::Transforms { samples, is_static } => self.learn_transforms(samples, is_static, time_s),
             Told::Map(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
-                self.map = Some(MapSnapshot { stamp_s, grid: Arc::new(message.grid), costmap: None });
+                self.map = Some(MapSnapshot {
+                    stamp_s,
+                    version: self.next_version(),
+                    grid: Arc::new(message.grid),
+                    costmap: None,
+                });
             }
             Told::Patch(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
                 if let Some(map) = &mut self.map {
                     map.stamp_s = stamp_s;
+                    map.version += 1;
                     self.malformed += u64::from(Arc::make_mut(&mut map.grid).apply(&message.patch).is_err());
                 }
             }
@@ -187,6 +193,11 @@ impl<R: Read + Seek> Player<R> {
         seconds(time) - self.begin_s
     }
 
+    /// The version of a map that comes now.
+    fn next_version(&self) -> u64 {
+        self.map.as_ref().map_or(1, |map| map.version + 1)
+    }
+
     /// Keeps a scan, and takes it into the map that is made here.
     fn learn_scan(&mut self, mut message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
         message.scan.stamp_s -= self.begin_s;
@@ -197,7 +208,12 @@ impl<R: Read + Seek> Player<R> {
                 && is_due
                 && let Some(grid) = mapping.map()
             {
-                self.map = Some(MapSnapshot { stamp_s: time_s, grid: Arc::new(grid), costmap: None });
+                self.map = Some(MapSnapshot {
+                    stamp_s: time_s,
+                    version: self.next_version(),
+                    grid: Arc::new(grid),
+                    costmap: None,
+                });
             }
         }
         self.scan = Some(message);

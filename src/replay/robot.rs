@@ -220,6 +220,10 @@ impl<R: Read + Seek> Robot for BagRobot<R> {
                 return Ok(());
             }
             Command::Drive { id, goal_in_map } => (id, Aim::Goal(goal_in_map)),
+            // A recording gets away as it did.
+            Command::BackOff { id } => {
+                (id, Aim::Turn { angle_rad: 0.0, from_rad: self.turned_rad, seen: (self.turned_rad, self.now_s) })
+            }
             Command::Turn { id, angle_rad } => {
                 let from_rad = self.turned_rad;
                 (id, Aim::Turn { angle_rad, from_rad, seen: (from_rad, self.now_s) })

@@ -41,6 +41,7 @@ struct Page<'a, D> {
     headline: String,
     figures: Vec<Figure>,
     milestones: Vec<[String; 3]>,
+    time_spent: Vec<[String; 3]>,
     legend: Vec<LegendEntry>,
     gradient: String,
     shown_candidates: usize,
@@ -81,6 +82,7 @@ impl<D: Serialize> HtmlReport<'_, D> {
             headline: headline(self.run),
             figures: figures(self.run),
             milestones: milestones(self.run),
+            time_spent: time_spent(self.run),
             legend: legend(self.theme),
             gradient: self.theme.gradient_stops().map(css).join(", "),
             shown_candidates: SHOWN_CANDIDATES,
@@ -123,6 +125,25 @@ fn figures<D>(run: &RunRecord<D>) -> Vec<Figure> {
         figure("frontiers left", run.left_behind.frontiers.to_string()),
         figure("collisions", run.collisions.to_string()),
     ]
+}
+
+/// Where the time went: what for, how long, and its share.
+fn time_spent<D>(run: &RunRecord<D>) -> Vec<[String; 3]> {
+    let spent = &run.time_spent;
+    let total_s = spent.total_s().max(f64::MIN_POSITIVE);
+    [
+        ("driving", spent.driving_s),
+        ("turning on the spot", spent.turning_s),
+        ("standing until a map came", spent.waiting_for_map_s),
+        ("standing though a goal was under way", spent.waiting_for_motion_s),
+        ("standing for want of navigation", spent.waiting_for_navigation_s),
+        ("standing for want of a pose", spent.waiting_for_pose_s),
+        ("resting before another attempt", spent.pausing_s),
+    ]
+    .into_iter()
+    .filter(|(_, seconds)| *seconds > 0.0)
+    .map(|(name, seconds)| [name.to_owned(), clock(seconds), format!("{:.1} %", 100.0 * seconds / total_s)])
+    .collect()
 }
 
 /// When each share of coverage was reached: share, time, distance.

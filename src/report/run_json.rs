@@ -6,7 +6,7 @@
 
 use super::ReportError;
 use super::series::{ByShare, SeriesPoint};
-use crate::explore::{Counts, DecisionRecord, EndReason, LeftBehind};
+use crate::explore::{Counts, DecisionRecord, EndReason, LeftBehind, TimeSpent};
 use crate::geometry::Pose;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -61,6 +61,9 @@ pub struct RunRecord<D = DecisionRecord> {
     pub distance_to_coverage_m: ByShare,
     /// What was done, counted.
     pub counts: Counts,
+    /// Where the time went, seconds.
+    #[serde(default)]
+    pub time_spent: TimeSpent,
     /// Frontiers that were left.
     pub left_behind: LeftBehind,
     /// All decisions in order of time.

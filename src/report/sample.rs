@@ -2,7 +2,9 @@
 
 use super::run_json::{MedianMax, RunRecord, SCHEMA_VERSION, Wall};
 use super::series::Series;
-use crate::explore::{CandidateRecord, CandidateStatus, Counts, DecisionRecord, EndReason, LeftBehind, Position};
+use crate::explore::{
+    CandidateRecord, CandidateStatus, Counts, DecisionRecord, EndReason, LeftBehind, Position, TimeSpent,
+};
 use crate::geometry::Pose;
 use std::collections::BTreeMap;
 
@@ -63,7 +65,16 @@ pub(super) fn run() -> RunRecord {
         free_area_m2: 160.25,
         time_to_coverage_s: series.time_to_coverage_s(),
         distance_to_coverage_m: series.distance_to_coverage_m(),
-        counts: Counts { goals_sent: 9, goals_reached: 8, goals_failed: 1, turns: 1, recoveries: 0, detections: 40 },
+        counts: Counts {
+            goals_sent: 9,
+            goals_reached: 8,
+            goals_failed: 1,
+            turns: 1,
+            recoveries: 0,
+            back_offs: 0,
+            detections: 40,
+        },
+        time_spent: TimeSpent { driving_s: 20.0, turning_s: 6.5, waiting_for_map_s: 2.0, ..TimeSpent::default() },
         left_behind: LeftBehind { frontiers: 1, unreachable: 1, ..LeftBehind::default() },
         decisions: vec![decision(0.0), decision(31.7)],
         series: series.points(),

@@ -99,9 +99,9 @@ pub fn path_message(path: &Path, frame: &str, stamp_s: f64) -> nav_msgs::Path {
 /// cannot be.
 pub fn grid(message: nav_msgs::OccupancyGrid) -> Result<OccupancyGrid, MapMessageError> {
     let info = &message.info;
-    // 0.05 is a little more than 0.05 in 32 bits: the shortest decimal is what was meant.
-    let resolution_m = info.resolution.to_string().parse().unwrap_or_else(|_| f64::from(info.resolution));
-    let info = GridInfo::new(info.width, info.height, resolution_m, pose(&info.origin))?;
+    // 0.05 is a little more than 0.05 in 32 bits. costmap_2d and its planners compute with
+    // the value as it came, and so do we: over a hundred columns the two part by a cell.
+    let info = GridInfo::new(info.width, info.height, f64::from(info.resolution), pose(&info.origin))?;
     Ok(OccupancyGrid::new(info, message.data)?)
 }
 
@@ -201,12 +201,12 @@ mod tests {
     }
 
     #[test]
-    fn maps_come_back_with_a_decimal_resolution() {
+    fn maps_come_back_with_the_resolution_of_the_message() {
         let info = GridInfo::new(3, 2, 0.05, Pose::new(-1.0, 2.0, 0.3)).unwrap();
         let map = OccupancyGrid::new(info, vec![-1, 0, 100, 25, 50, 75]).unwrap();
         let back = grid(grid_message(&map, "map", 3.0)).unwrap();
         assert_eq!(back.data(), map.data());
-        assert_eq!(back.info().resolution_m(), 0.05);
+        assert_eq!(back.info().resolution_m(), f64::from(0.05_f32));
         let (a, b) = (back.info().origin_in_map(), info.origin_in_map());
         assert!(a.distance_to(b.position()) < 1e-12 && (a.yaw - b.yaw).abs() < 1e-12);
         let mut short = grid_message(&map, "map", 3.0);

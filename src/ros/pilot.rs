@@ -98,7 +98,9 @@ impl Pilot {
         shared.navigator.command(command);
         let (id, state) = match *command {
             Command::Hold => (0, NavigationState::Idle),
-            Command::Drive { id, .. } | Command::Turn { id, .. } => (id, NavigationState::Active),
+            Command::Drive { id, .. } | Command::Turn { id, .. } | Command::BackOff { id } => {
+                (id, NavigationState::Active)
+            }
         };
         if shared.navigation.command != id {
             shared.navigation = Navigation { command: id, state };

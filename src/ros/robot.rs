@@ -315,7 +315,10 @@ impl Robot for RosRobot {
             Command::Hold => self.stop(),
             Command::Drive { id, ref goal_in_map } if self.parts.move_base.is_some() => self.drive(id, goal_in_map),
             Command::Turn { id, angle_rad } => self.turn(id, angle_rad),
-            Command::Drive { .. } => {
+            Command::Drive { .. } | Command::BackOff { .. } => {
+                if let Some(move_base) = &mut self.parts.move_base {
+                    move_base.cancel();
+                }
                 self.parts.pilot.command(command);
                 self.task = Task::Pilot;
             }

@@ -75,7 +75,12 @@ impl RobotMap {
             (None, Some((old, costmap))) => costmap.reinflate(old, &grid, &self.thresholds, &self.inflation),
             (None, None) => Costmap::inflate(&grid, &self.thresholds, &self.inflation),
         };
-        let snapshot = MapSnapshot { stamp_s: clock.of(received.stamp_s), grid, costmap: Some(Arc::new(costmap)) };
+        let snapshot = MapSnapshot {
+            stamp_s: clock.of(received.stamp_s),
+            version: version.0,
+            grid,
+            costmap: Some(Arc::new(costmap)),
+        };
         self.known = Some(KnownMap { version, snapshot, received });
         true
     }

@@ -1,15 +1,15 @@
 //! How much of what there is to see has been seen: the one definition of a run's
 //! coverage.
 //!
-//! The target area are the ground truth's free cells that are connected with the
-//! start and lie within 0.35 m of a place where the robot's inscribed disc can stand,
-//! that place being connected with the start by such places. Coverage is the share
-//! of them that the map knows. Cells that are merely near to such a place through a
-//! wall are no target: no sensor gets to see them.
+//! The target area are the ground truth's free cells to which free cells lead within
+//! 0.35 m from a place where a disc as wide as the robot can stand, that place being
+//! connected with the start by such places. Coverage is the share of them that the map
+//! knows. Cells that are merely near to such a place through a wall, or on the other
+//! side of a wall that has a crack somewhere, are no target: no sensor gets to see them.
 
 use super::{World, WorldError};
 use crate::geometry::{Footprint, Point, Pose};
-use crate::grid::{Cell, GridInfo, Neighbourhood, OccupancyGrid, squared_distance_cells};
+use crate::grid::{Cell, GridInfo, NEIGHBOURS_8, Neighbourhood, OccupancyGrid};
 
 /// How far from where the robot can stand a free cell is still a target, metres.
 pub const SENSED_MARGIN_M: f64 = 0.35;
@@ -30,15 +30,12 @@ impl TargetArea {
     pub fn new(world: &World, footprint: &Footprint, start: &Pose) -> Result<Self, WorldError> {
         world.check_start(start, footprint)?;
         let info = *world.info();
-        let radius_m = footprint.inscribed_radius_m();
+        let radius_m = footprint.passage_radius_m();
         let standable = connected(&info, start.position(), |cell| world.disc_fits(cell, radius_m));
-        let free = connected(&info, start.position(), |cell| !world.is_solid(cell));
-        let distances = squared_distance_cells(&info, |i| standable.get(i).copied().unwrap_or(false));
-        let margin_cells = SENSED_MARGIN_M / info.resolution_m();
         // The margin is itself a whole number of cells for the usual resolutions.
-        let limit = (margin_cells * margin_cells + 1e-6) as u32;
-        let near = free.iter().zip(&distances).enumerate();
-        let cells = near.filter(|&(_, (&free, &d))| free && d <= limit).map(|(i, _)| i as u32).collect();
+        let margin = (SENSED_MARGIN_M / info.resolution_m() + 1e-6) as f32;
+        let near = within(&info, &standable, margin, |cell| !world.is_solid(cell));
+        let cells = near.iter().enumerate().filter(|&(_, &near)| near).map(|(i, _)| i as u32).collect();
         Ok(Self { info, cells })
     }
 
@@ -76,6 +73,33 @@ fn connected(info: &GridInfo, start: Point, holds: impl Fn(Cell) -> bool) -> Vec
         }
     }
     reached
+}
+
+/// The cells to which cells that are `open` lead from the given ones, over sides and
+/// corners, within a number of cells; the given ones are among them.
+fn within(info: &GridInfo, from: &[bool], limit: f32, open: impl Fn(Cell) -> bool) -> Vec<bool> {
+    let mut far: Vec<f32> = from.iter().map(|&is_start| if is_start { 0.0 } else { f32::INFINITY }).collect();
+    let mut rim: Vec<usize> = (0..far.len()).filter(|&i| from[i]).collect();
+    // Each round corrects what the one before reached by a longer way.
+    while !rim.is_empty() {
+        let mut next = Vec::new();
+        for index in rim {
+            let cell = info.cell(index);
+            for (step, (dx, dy)) in NEIGHBOURS_8.into_iter().enumerate() {
+                let beside = cell.offset((dx, dy));
+                // No way squeezes between two obstacles that touch at a corner.
+                let is_free = step < 4 || open(cell.offset((dx, 0))) && open(cell.offset((0, dy)));
+                let length = far[index] + if step < 4 { 1.0 } else { std::f32::consts::SQRT_2 };
+                let Some(there) = info.index(beside) else { continue };
+                if is_free && length <= limit && length < far[there] && open(beside) {
+                    far[there] = length;
+                    next.push(there);
+                }
+            }
+        }
+        rim = next;
+    }
+    far.into_iter().map(f32::is_finite).collect()
 }
 
 /// Counts coverage from map to map: a cell once known is not looked at again.

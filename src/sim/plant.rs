@@ -54,6 +54,7 @@ pub struct SimStats {
 #[derive(Debug)]
 struct Published {
     stamp_s: f64,
+    version: u64,
     grid: Arc<OccupancyGrid>,
     costmap: Arc<Costmap>,
 }
@@ -111,7 +112,7 @@ impl Plant {
         filter.accepts(&lidar_pose, 0.0, &config.mapper);
         let grid = mapper.publish()?;
         let costmap = Costmap::inflate(&grid, &config.thresholds, &inflation);
-        let published = Published { stamp_s: 0.0, grid, costmap: Arc::new(costmap) };
+        let published = Published { stamp_s: 0.0, version: 1, grid, costmap: Arc::new(costmap) };
         let mut coverage = Coverage::new(&target);
         coverage.update(&published.grid);
         let mut this = Self {
@@ -193,6 +194,12 @@ impl Plant {
         self.published.stamp_s
     }
 
+    /// How many maps have been published.
+    #[must_use]
+    pub const fn map_version(&self) -> u64 {
+        self.published.version
+    }
+
     /// The newest scan with the lidar's pose in the map frame.
     #[must_use]
     pub const fn scan(&self) -> &(Pose, Arc<LaserScan>) {
@@ -259,11 +266,13 @@ impl Plant {
             }
             let grid = self.mapper.publish()?;
             self.published.stamp_s = stamp_s;
+            self.published.version += 1;
             // On known ground nothing changes for long, and inflating takes its time.
             if grid != self.published.grid {
-                let Published { grid: old, costmap, .. } = &self.published;
+                let Published { version, grid: old, costmap, .. } = &self.published;
+                let version = *version;
                 let costmap = costmap.reinflate(old, &grid, &self.config.thresholds, &self.inflation);
-                self.published = Published { stamp_s, grid, costmap: Arc::new(costmap) };
+                self.published = Published { stamp_s, version, grid, costmap: Arc::new(costmap) };
                 self.coverage.update(&self.published.grid);
             }
         }

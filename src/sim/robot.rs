@@ -130,6 +130,7 @@ impl Robot for SimRobot {
             pose_in_map: Ok(self.plant.pose()),
             map: Some(MapSnapshot {
                 stamp_s: self.plant.map_stamp_s(),
+                version: self.plant.map_version(),
                 grid: Arc::clone(self.plant.map()),
                 costmap: Some(Arc::clone(self.plant.costmap())),
             }),

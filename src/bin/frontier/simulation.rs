@@ -51,10 +51,10 @@ impl Plan {
         let Self { preset, robot, world, .. } = self;
         let (body, navigation) = (robot.body(), &preset.navigation);
         let planner = preset.explorer.planner.build(&body);
-        let navigator = Navigator::new(navigation.navigator, planner, navigation.controller.build(&body));
+        let navigator = Navigator::new(navigation.navigator, planner, navigation.controller.build(&body), &body);
         let sim = SimRobot::new(Arc::clone(&world.world), robot, self.sim_config(), navigator, self.start)
             .with_context(|| format!("world {}", world.name))?;
-        let explorer = Explorer::new(preset.explorer.clone(), robot.inflation(), &body)?;
+        let explorer = Explorer::new(preset.explorer.clone(), &robot.traits())?;
         Ok((sim, explorer))
     }
 

@@ -1,12 +1,17 @@
 //! From a decision to what is done about it: a goal, a look round, a recovery, the end.
 
-use super::super::decide::Decided;
+use super::super::decide::{Decided, Situation};
 use super::super::progress::ProgressMonitor;
-use super::super::record::{DecisionRecord, End, EndReason};
-use super::super::state::{Drive, State};
+use super::super::record::{DecisionRecord, EndReason};
+use super::super::state::{AfterTurn, Drive, State};
 use super::Explorer;
 use crate::geometry::{Point, Pose};
 use crate::robot::{MapSnapshot, Observation};
+
+/// A turn that makes a mapper send a map, radians: gmapping's default asks for 0.5.
+const NUDGE_RAD: f64 = 0.7;
+/// So many of them are made before the map has to come by itself.
+const NUDGES: u32 = 3;
 
 impl Explorer {
     /// Goes on as if the robot had been sent to this goal by the explorer itself: a
@@ -28,7 +33,8 @@ impl Explorer {
             is_stage: false,
             since_s: observation.stamp_s,
             progress: ProgressMonitor::new(pose, observation.stamp_s),
-            considered_s: map.stamp_s,
+            considered_s: observation.stamp_s,
+            considered_version: map.version,
         });
     }
 
@@ -41,7 +47,16 @@ impl Explorer {
     ) -> Option<DecisionRecord> {
         let now_s = observation.stamp_s;
         self.counts.detections += 1;
-        let decided = match self.lookout.decide(&self.settings, &self.blacklist, observation, map, pose) {
+        self.trouble.sees(self.watch.known_m2());
+        let situation = Situation {
+            settings: &self.settings,
+            blacklist: &self.blacklist,
+            sights: &self.sights,
+            driven: &self.driven,
+            robot: pose,
+            awaits_map: !self.watch.is_fresh() && !matches!(self.state, State::Driving(_)),
+        };
+        let decided = match self.lookout.decide(&situation, observation, map) {
             Ok(decided) => decided,
             Err(error) => {
                 self.wait_for_map(now_s, &error.to_string());
@@ -50,22 +65,51 @@ impl Explorer {
         };
         self.map_lost_since_s = None;
         self.left_behind = decided.left_behind;
+        self.count_visits(&decided);
         let mut record = decided.record.clone();
         self.follow(&decided, map, now_s, &mut record, pose);
         Some(record)
     }
 
+    /// Frontiers that are still there, on a map of after the robot was at their goals, have
+    /// been visited in vain once more.
+    fn count_visits(&mut self, decided: &Decided) {
+        if !self.watch.is_fresh() {
+            return;
+        }
+        let radius_m = self.settings.taboo.radius_m;
+        for arrival in std::mem::take(&mut self.arrivals) {
+            let is_there = |target: Point| nalgebra::distance(&target, &arrival) <= radius_m;
+            if decided.record.candidates.iter().any(|c| is_there(Point::new(c.target.x, c.target.y))) {
+                self.blacklist.record_visit(arrival);
+            }
+        }
+    }
+
     /// Turns what was decided into the next state.
     fn follow(&mut self, decided: &Decided, map: &MapSnapshot, now_s: f64, record: &mut DecisionRecord, pose: Pose) {
+        if let Some(share) = self.share_known(map)
+            && self.settings.finish.good_enough_share.is_some_and(|enough| share >= enough)
+            && self.watch.is_fresh()
+            && decided.left_behind.frontiers > 0
+        {
+            let left = 100.0 * (1.0 - share);
+            self.finish(
+                EndReason::GoodEnough,
+                now_s,
+                &format!("about {left:.1} % of the free area is left, as was asked for"),
+            );
+            return;
+        }
         if let Some(choice) = &decided.choice {
-            self.empty_in_a_row = 0;
             if let State::Driving(drive) = &mut self.state
                 && self.lookout.can_stand(map, drive.goal.position())
             {
                 let goal = &self.settings.goal;
                 let is_same = drive.goal.distance_to(choice.goal.position()) < goal.already_there_m;
                 if is_same || decided.is_open_near(drive.target, goal.commit_radius_m) {
-                    drive.considered_s = map.stamp_s;
+                    drive.considered_s = now_s;
+                    drive.considered_version = map.version;
                     record.goal = Some(drive.goal);
                     "the goal under way is kept".clone_into(&mut record.why);
                     return;
@@ -80,49 +124,66 @@ impl Explorer {
                 is_stage: choice.is_stage,
                 since_s: now_s,
                 progress,
-                considered_s: map.stamp_s,
+                considered_s: now_s,
+                considered_version: map.version,
             });
+            return;
+        }
+        if !self.watch.is_fresh() {
+            "nothing is left to choose on this map: one that came after the last motion shall confirm it"
+                .clone_into(&mut record.why);
+            self.keep_confirming(map.version, now_s);
             return;
         }
         if let Some(target) = decided.here {
             // Nothing else is left: look round once more from where the robot stands.
             self.blacklist.record_visit(target);
-            record.why = "the robot already stands where the last frontier is seen from: look round".to_owned();
+            "the robot already stands where the last frontier is seen from: look round".clone_into(&mut record.why);
             self.look_round(now_s);
             return;
         }
-        if decided.left_behind.frontiers == 0 {
-            self.empty_in_a_row += 1;
-            if self.empty_in_a_row >= 2 {
-                self.finish(EndReason::Complete, now_s, "no frontier is left");
-            } else {
-                record.why = "no frontier is left: one more map shall confirm it".to_owned();
-                self.settle(now_s, map.stamp_s + 1e-9);
-            }
+        let audit = decided.audit.as_ref();
+        let barred = audit.is_some_and(|audit| audit.barred > 0);
+        let in_pocket = audit.is_some_and(|audit| audit.in_pocket) && decided.left_behind.unreachable > 0;
+        if decided.left_behind.failed > 0 || barred || in_pocket {
+            self.recover(decided, pose, now_s, record);
             return;
         }
-        self.empty_in_a_row = 0;
-        let blocked = decided.left_behind.unreachable + decided.left_behind.failed > 0;
-        if blocked && self.recoveries_in_a_row < self.settings.turns.recoveries {
-            self.recoveries_in_a_row += 1;
-            self.counts.recoveries += 1;
-            self.blacklist.forgive_failures();
-            record.why = "frontiers remain and no way leads to them: recovery turn".to_owned();
-            self.turn(now_s);
-            return;
-        }
-        let (reason, message) = decided.why_nothing_is_left();
+        let (reason, message) = decided.why_nothing_is_left(false);
         self.finish(reason, now_s, &message);
     }
 
-    /// The run is over but for the way back, if that is wanted.
-    fn finish(&mut self, reason: EndReason, now_s: f64, message: &str) {
-        let end = End { reason, time_s: now_s, left_behind: self.left_behind, message: message.to_owned() };
-        self.state = match self.start_pose {
-            Some(goal) if self.settings.return_to_start => {
-                State::Returning { id: self.next_id(), goal, end, since_s: now_s }
-            }
-            _ => State::Ended(end),
+    /// The share of the free area that is known, where an end by share is asked for.
+    fn share_known(&self, map: &MapSnapshot) -> Option<f64> {
+        self.settings.finish.good_enough_share?;
+        let free_m2 = map.grid.census(&self.settings.thresholds).free as f64 * map.grid.info().cell_area_m2();
+        Some(free_m2 / (free_m2 + self.left_behind.area_m2).max(f64::MIN_POSITIVE))
+    }
+
+    /// Goes on waiting for a map of after the last motion.
+    fn keep_confirming(&mut self, version: u64, now_s: f64) {
+        let (since_s, turns) = match &self.state {
+            State::Confirming { since_s, turns, .. } => (*since_s, *turns),
+            _ => (now_s, 0),
         };
+        self.state = State::Confirming { since_s, turns, version };
+    }
+
+    /// A tick of waiting for a map that may end the run: decides on each that comes, and
+    /// moves a little where none does.
+    pub(super) fn confirm(&mut self, observation: &Observation, pose: Pose) -> Option<DecisionRecord> {
+        let now_s = observation.stamp_s;
+        let map = self.usable_map(now_s)?;
+        let State::Confirming { since_s, turns, version } = &self.state else { return None };
+        let (waited_s, turns) = (now_s - since_s, *turns);
+        if map.version != *version {
+            return self.decide(observation, &map, pose);
+        }
+        // gmapping sends no map while the robot stands.
+        if turns < NUDGES && waited_s >= self.settings.patience.settle_s * 2_f64.powi(turns as i32) {
+            let angle_rad = if turns % 2 == 0 { NUDGE_RAD } else { -NUDGE_RAD };
+            self.turn(now_s, angle_rad, AfterTurn::Confirm(turns + 1));
+        }
+        None
     }
 }

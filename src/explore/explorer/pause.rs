@@ -6,17 +6,20 @@ use super::Explorer;
 use crate::robot::{Command, NavigationState, Observation};
 
 impl Explorer {
-    /// Holds while the robot does not know where it is: no pose is made up.
+    /// Holds while the robot does not know where it is: no pose is made up. A transform
+    /// that is late for an instant leaves the goal under way.
     pub(super) fn pause_without_pose(&mut self, now_s: f64, error: &str) -> Decision {
         let since_s = *self.pose_lost_since_s.get_or_insert(now_s);
-        if now_s - since_s >= self.settings.patience.pose_timeout_s {
+        let lost_s = now_s - since_s;
+        if lost_s >= self.settings.patience.pose_timeout_s {
             self.end_now(EndReason::NoPose, now_s, error);
         }
         if let State::Driving(drive) = &mut self.state {
             drive.progress.pause(now_s);
         }
         let mut decision = self.state.decision(None);
-        if decision.end.is_none() {
+        let has_begun = self.start_pose.is_some();
+        if decision.end.is_none() && !(has_begun && lost_s < self.settings.patience.pose_grace_s) {
             decision.phase = Phase::WaitingForPose;
             decision.command = Command::Hold;
         }
@@ -40,6 +43,7 @@ impl Explorer {
             self.end_now(EndReason::NoNavigation, now_s, why);
         }
         self.state.restart_timers(now_s);
+        self.watch.pause(now_s);
         let mut decision = self.state.decision(None);
         if decision.end.is_none() {
             decision.phase = Phase::WaitingForNavigation;
@@ -53,7 +57,21 @@ impl Explorer {
         if now_s - since_s >= self.settings.patience.map_timeout_s {
             self.end_now(EndReason::NoMap, now_s, why);
         } else {
-            self.settle(now_s, now_s);
+            self.state = State::Settling { since_s: now_s };
+        }
+    }
+
+    /// A mapper that owes a map: a word with its age after a while, and in the end the end.
+    pub(super) fn watch_for_maps(&mut self, now_s: f64) {
+        let limit_s = self.settings.patience.map_timeout_s;
+        let overdue_s = self.watch.overdue_s(now_s);
+        if overdue_s >= limit_s {
+            let message =
+                format!("no newer map has come for {overdue_s:.0} s though the robot moved: is the mapper alive?");
+            self.end_now(EndReason::NoMap, now_s, &message);
+        } else if overdue_s >= limit_s / 4.0 {
+            self.notice =
+                Some(format!("the map is stale: no newer one has come for {overdue_s:.0} s though the robot moved"));
         }
     }
 }

@@ -46,6 +46,7 @@ const fn number(status: CandidateStatus) -> u8 {
         CandidateStatus::Unreachable => Frontier::UNREACHABLE,
         CandidateStatus::Taboo => Frontier::TABOO,
         CandidateStatus::OutsideRegion => Frontier::OUTSIDE_REGION,
+        CandidateStatus::TooNarrow => Frontier::TOO_NARROW,
         CandidateStatus::AlreadyThere => Frontier::ALREADY_THERE,
     }
 }

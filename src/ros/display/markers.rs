@@ -72,7 +72,7 @@ const fn color(status: CandidateStatus) -> ColorRGBA {
         CandidateStatus::Chosen | CandidateStatus::AlreadyThere => (0.1, 0.8, 0.2),
         CandidateStatus::Eligible => (0.1, 0.4, 1.0),
         CandidateStatus::Taboo => (0.9, 0.1, 0.1),
-        CandidateStatus::NoPath | CandidateStatus::Unreachable => (0.5, 0.5, 0.5),
+        CandidateStatus::NoPath | CandidateStatus::Unreachable | CandidateStatus::TooNarrow => (0.5, 0.5, 0.5),
         CandidateStatus::OutsideRegion => (0.6, 0.3, 0.8),
     };
     ColorRGBA { r, g, b, a: 1.0 }

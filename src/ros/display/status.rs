@@ -72,7 +72,13 @@ pub fn diagnostics(node: &str, status: &ExplorationStatus) -> DiagnosticArray {
         ExplorationStatus::WAITING_FOR_POSE,
         ExplorationStatus::WAITING_FOR_NAVIGATION,
     ];
-    let well = ["", EndReason::Complete.name(), EndReason::OutsideRegion.name(), EndReason::Interrupted.name()];
+    let well = [
+        "",
+        EndReason::Complete.name(),
+        EndReason::GoodEnough.name(),
+        EndReason::OutsideRegion.name(),
+        EndReason::Interrupted.name(),
+    ];
     let level = match status.phase {
         _ if !well.contains(&status.end_reason.as_str()) => DiagnosticStatus::ERROR,
         phase if waits.contains(&phase) => DiagnosticStatus::WARN,
@@ -129,6 +135,8 @@ const fn phase_number(input: &StatusInput<'_>) -> u8 {
         Phase::WaitingForNavigation => ExplorationStatus::WAITING_FOR_NAVIGATION,
         Phase::Turning => ExplorationStatus::TURNING,
         Phase::Driving => ExplorationStatus::DRIVING,
+        Phase::BackingOff => ExplorationStatus::BACKING_OFF,
+        Phase::Pausing => ExplorationStatus::RESTING,
         Phase::Returning => ExplorationStatus::RETURNING,
         Phase::Ended => ExplorationStatus::ENDED,
     }

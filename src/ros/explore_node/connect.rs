@@ -47,7 +47,7 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
     let move_base = if drives_itself { None } else { Some(MoveBase::connect(node, &params.move_base, &bell)?) };
     let body = robot.body();
     let navigator =
-        Navigator::new(navigation.navigator, explorer.planner.build(&body), navigation.controller.build(&body));
+        Navigator::new(navigation.navigator, explorer.planner.build(&body), navigation.controller.build(&body), &body);
     let pilot_config = PilotConfig {
         base_frame: params.base_frame.clone(),
         transform_tolerance_s: params.transform_tolerance,

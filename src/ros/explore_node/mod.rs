@@ -123,7 +123,7 @@ fn run_once(
     region: Option<Polygon>,
 ) -> Result<(End, Option<Polygon>), ExploreNodeError> {
     let Settings { params, preset, robot: body } = settings;
-    let mut explorer = Explorer::new(preset.explorer.clone(), body.inflation(), &body.body())?;
+    let mut explorer = Explorer::new(preset.explorer.clone(), &body.traits())?;
     explorer.set_region(region);
     if let Some(planner) = controls.asking_planner(node, settings) {
         explorer.set_planner(planner);

@@ -119,6 +119,8 @@ const fn phase_sentence(phase: Phase) -> Option<&'static str> {
         Phase::WaitingForPose => Some("waiting to know where the robot is"),
         Phase::WaitingForNavigation => Some("waiting for move_base"),
         Phase::Turning => Some("turning round to look about"),
+        Phase::BackingOff => Some("backing off from what stands too near"),
+        Phase::Pausing => Some("resting before what failed is tried again"),
         Phase::Returning => Some("driving back to the start"),
         Phase::Driving | Phase::Ended => None,
     }

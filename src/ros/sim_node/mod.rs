@@ -165,7 +165,7 @@ impl Simulator {
         let topics = Topics::offer(node, &robot, &params.base_frame, with_clock)?;
         let body = robot.body();
         let planner = || preset.explorer.planner.build(&body);
-        let navigator = Navigator::new(navigation.navigator, planner(), navigation.controller.build(&body));
+        let navigator = Navigator::new(navigation.navigator, planner(), navigation.controller.build(&body), &body);
         let server =
             if params.move_base { Some(MoveBaseServer::offer(node, navigator, planner(), &plant)?) } else { None };
         let received = Arc::<Mutex<Received>>::default();

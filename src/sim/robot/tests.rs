@@ -24,8 +24,8 @@ fn two_rooms() -> Arc<World> {
 fn robot(config: SimConfig) -> SimRobot {
     let burger = builtin_robot("turtlebot3_burger").unwrap();
     let body = burger.body();
-    let follower = PathFollower::new(FollowerConfig::default(), body);
-    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), Box::new(follower));
+    let follower = PathFollower::new(FollowerConfig::default(), body.clone());
+    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), Box::new(follower), &body);
     SimRobot::new(two_rooms(), &burger, config, navigator, Pose::new(0.0, 0.0, 0.0)).unwrap()
 }
 
@@ -114,8 +114,8 @@ fn the_same_seed_gives_the_same_run_byte_for_byte() {
 fn a_start_in_a_wall_is_refused_with_its_room() {
     let burger = builtin_robot("turtlebot3_burger").unwrap();
     let body = burger.body();
-    let follower = Box::new(PathFollower::new(FollowerConfig::default(), body));
-    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower);
+    let follower = Box::new(PathFollower::new(FollowerConfig::default(), body.clone()));
+    let navigator = Navigator::new(NavigatorConfig::default(), Box::<Astar>::default(), follower, &body);
     let start = Pose::new(-1.98, 0.0, 0.0);
     let error = SimRobot::new(two_rooms(), &burger, SimConfig::default(), navigator, start).err().unwrap();
     assert!(matches!(error, SimError::World(WorldError::StartBlocked { clearance_m, .. }) if clearance_m == 0.0));

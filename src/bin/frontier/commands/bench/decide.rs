@@ -94,12 +94,12 @@ fn time_decisions(
     let mut times_ms = Vec::new();
     let mut frontiers = 0;
     for run in 0..=args.runs {
-        let mut explorer = Explorer::new(settings.clone(), robot.inflation(), &robot.body())?;
+        let mut explorer = Explorer::new(settings.clone(), &robot.traits())?;
         let stamp_s = f64::from(run);
         let observation = Observation {
             stamp_s,
             pose_in_map: Ok(args.at),
-            map: Some(MapSnapshot { stamp_s, grid: Arc::clone(grid), costmap: None }),
+            map: Some(MapSnapshot { stamp_s, version: u64::from(run), grid: Arc::clone(grid), costmap: None }),
             scan: None,
             navigation: Navigation { command: 0, state: NavigationState::Idle },
         };

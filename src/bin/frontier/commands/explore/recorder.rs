@@ -64,6 +64,7 @@ impl Recorder {
             time_to_coverage_s: self.series.time_to_coverage_s(),
             distance_to_coverage_m: self.series.distance_to_coverage_m(),
             counts,
+            time_spent: *explorer.time_spent(),
             left_behind: end.left_behind,
             decisions: std::mem::take(&mut self.trail.decisions),
             series: self.series.points(),

@@ -122,7 +122,7 @@ impl Recording {
                 self.file.put(self.topics.goal, nanos(BEGIN_S + now_s), &message);
             }
             Command::Drive { .. } => {}
-            Command::Hold | Command::Turn { .. } => self.end_goal(now_s, 2, "cancelled"),
+            Command::Hold | Command::Turn { .. } | Command::BackOff { .. } => self.end_goal(now_s, 2, "cancelled"),
         }
     }
 

@@ -108,7 +108,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         player.set_tap(out_bag.tap());
     }
     let mut robot = BagRobot::new(player, &summary, args.until);
-    let mut explorer = Explorer::new(preset.explorer.clone(), robot_config.inflation(), &robot_config.body())?;
+    let mut explorer = Explorer::new(preset.explorer.clone(), &robot_config.traits())?;
     let mut recorder = Recorder::new(&preset.explorer, &robot_config, args, out_bag)?;
     let end = explore(&mut robot, &mut explorer, &mut recorder);
     let name = args.bag.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -115,6 +115,7 @@ impl<'a> Recorder<'a> {
             time_to_coverage_s: series.time_to_coverage_s(),
             distance_to_coverage_m: series.distance_to_coverage_m(),
             counts,
+            time_spent: *explorer.time_spent(),
             left_behind: end.left_behind,
             decisions: std::mem::take(&mut self.trail.decisions),
             series: series.points(),

@@ -1,0 +1,61 @@
+//! The check before every end: is really nothing left?
+//!
+//! A preset sees frontiers with its own detector, drops those below its own size and keeps
+//! its own list of what failed; nothing of this may make a run end `complete`. The audit
+//! asks the textbook's question of the raw map: unknown cells beside free ones that hang
+//! together with the robot, longer than the robot is wide.
+
+use super::traits::RobotTraits;
+use crate::frontier::{
+    Bitplane, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability,
+};
+use crate::geometry::Pose;
+use crate::grid::{Costmap, Inflation, Neighbourhood, OccupancyGrid, Thresholds};
+use crate::planning::{Driven, PathField};
+use std::sync::Arc;
+
+/// Looks at the raw map with the textbook's eyes.
+#[derive(Debug)]
+pub struct Audit {
+    detector: Bitplane,
+    thresholds: Thresholds,
+    passage_radius_m: f64,
+}
+
+impl Audit {
+    /// An audit for a robot.
+    #[must_use]
+    pub fn new(robot: &RobotTraits, thresholds: Thresholds) -> Self {
+        let footprint = &robot.body.footprint;
+        let params = DetectorParams {
+            neighbours: Neighbourhood::Eight,
+            reachability: Reachability::WallsBlock,
+            min_size_m: 2.0 * footprint.passage_radius_m(),
+            thresholds,
+            ..DetectorParams::default()
+        };
+        Self { detector: Bitplane::new(params), thresholds, passage_radius_m: footprint.passage_radius_m() }
+    }
+
+    /// The frontiers that are longer than the robot is wide.
+    ///
+    /// # Errors
+    /// [`DetectError`] when the map gives no answer.
+    pub fn frontiers(&mut self, grid: &OccupancyGrid, robot: Pose) -> Result<Vec<Frontier>, DetectError> {
+        self.detector.detect(&DetectionInput::new(grid, robot))
+    }
+
+    /// Where the robot could get to if it needed no room beside its body, neither padding
+    /// nor room to turn; `None` where it stands in an obstacle.
+    #[must_use]
+    pub fn widest_reach(&self, grid: &OccupancyGrid, driven: &Driven, robot: &Pose) -> Option<PathField> {
+        let inflation = Inflation {
+            inscribed_radius_m: self.passage_radius_m,
+            clear_radius_m: 0.0,
+            inflation_radius_m: 0.0,
+            cost_scaling_factor: 1.0,
+        };
+        let costmap = Arc::new(Costmap::inflate(grid, &self.thresholds, &inflation));
+        PathField::reach_only(driven.open(&costmap, robot), robot).ok()
+    }
+}

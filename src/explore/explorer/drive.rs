@@ -1,0 +1,85 @@
+//! On the way to a goal: arrival, failure, and second thoughts.
+
+use super::super::record::DecisionRecord;
+use super::super::state::State;
+use super::Explorer;
+use crate::geometry::Pose;
+use crate::robot::{MapSnapshot, NavigationState, Observation};
+
+impl Explorer {
+    /// A tick on the way to a goal.
+    pub(super) fn drive(&mut self, observation: &Observation, pose: Pose) -> Option<DecisionRecord> {
+        let now_s = observation.stamp_s;
+        let patience = self.settings.patience;
+        let State::Driving(drive) = &mut self.state else { return None };
+        let ours = observation.navigation.command == drive.id;
+        match &observation.navigation.state {
+            NavigationState::Succeeded if ours => {
+                let (target, is_stage) = (drive.target, drive.is_stage);
+                self.counts.goals_reached += 1;
+                self.recoveries_in_a_row = 0;
+                self.trouble.is_over();
+                self.state = State::Ready;
+                if !is_stage {
+                    self.arrivals.push(target);
+                    if self.settings.turns.at_goal {
+                        self.look_round(now_s);
+                    }
+                }
+            }
+            NavigationState::Aborted(why) if ours => self.fail(pose, now_s, why),
+            NavigationState::Preempted if ours => self.state = State::Settling { since_s: now_s },
+            _ => {
+                let stuck_s = drive.progress.stuck_for_s(&pose, now_s, patience.progress_distance_m);
+                let still_s = drive.progress.still_for_s(&pose, now_s);
+                let trouble = if now_s - drive.since_s >= patience.goal_timeout_s {
+                    Some(format!("not reached within {:.0} s", patience.goal_timeout_s))
+                } else if stuck_s >= patience.progress_timeout_s {
+                    Some(format!("no progress for {stuck_s:.0} s"))
+                } else if still_s >= patience.stall_s {
+                    Some(format!("the robot has not moved for {still_s:.0} s"))
+                } else {
+                    None
+                };
+                if let Some(why) = trouble {
+                    self.fail(pose, now_s, &why);
+                } else if let Some(map) = self.watch.map().cloned() {
+                    return self.reconsider(observation, &map, pose);
+                }
+            }
+        }
+        None
+    }
+
+    /// On the way: decide anew when the goal turned out to be blocked, or when the
+    /// settings ask for it.
+    fn reconsider(&mut self, observation: &Observation, map: &MapSnapshot, pose: Pose) -> Option<DecisionRecord> {
+        let State::Driving(drive) = &mut self.state else { return None };
+        if map.version <= drive.considered_version {
+            return None;
+        }
+        let due = self
+            .settings
+            .goal
+            .reconsider_period_s
+            .is_some_and(|period_s| observation.stamp_s - drive.considered_s >= period_s);
+        let blocked = !self.lookout.can_stand(map, drive.goal.position());
+        if due || blocked {
+            return self.decide(observation, map, pose);
+        }
+        None
+    }
+
+    /// The goal under way is given up.
+    pub(super) fn fail(&mut self, pose: Pose, now_s: f64, why: &str) {
+        let State::Driving(drive) = &self.state else { return };
+        self.notice = Some(format!("the goal at ({:.2}, {:.2}) m failed: {why}", drive.goal.x, drive.goal.y));
+        self.counts.goals_failed += 1;
+        self.blacklist.record_failure(drive.target, drive.goal.position(), pose.position());
+        let is_the_place = self.trouble.fail(&pose, now_s);
+        if self.gives_up(now_s) {
+            return;
+        }
+        self.state = if is_the_place { self.back_off(pose, now_s) } else { State::Ready };
+    }
+}

@@ -1,0 +1,126 @@
+//! Attempts that fail: for how long, from where, and how long to rest before the next.
+
+use crate::geometry::{Point, Pose};
+
+/// A robot that came no farther than this since it began to fail does not get away, metres.
+const WEDGED_WITHIN_M: f64 = 0.5;
+/// Failures within this distance of each other are from one place, metres.
+const ONE_PLACE_M: f64 = 0.3;
+/// From one place the robot backs off so many times before the goals are to blame after all.
+const BACK_OFFS: u32 = 3;
+/// So much more that is known is new ground, square metres.
+const NEW_GROUND_M2: f64 = 1.0;
+/// The longest rest between two rounds, seconds.
+const LONGEST_PAUSE_S: f64 = 16.0;
+
+/// Since the last success.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Trouble {
+    /// When it began, and where the robot was.
+    began: Option<(f64, Point)>,
+    /// The farthest that the robot came from there, metres.
+    farthest_m: f64,
+    rounds: u32,
+    /// Where goals failed last, how many in a row, and how often the robot backed off.
+    spot: Option<Point>,
+    failures_here: u32,
+    back_offs_here: u32,
+    /// What was known at the last success, square metres.
+    known_m2: f64,
+}
+
+impl Trouble {
+    /// A goal was reached, or new ground seen: all is well.
+    pub const fn is_over(&mut self) {
+        self.began = None;
+        self.rounds = 0;
+        self.spot = None;
+        self.failures_here = 0;
+        self.back_offs_here = 0;
+    }
+
+    /// A map knows so much, square metres.
+    pub const fn sees(&mut self, known_m2: f64) {
+        if known_m2 >= self.known_m2 + NEW_GROUND_M2 || known_m2 < 0.5 * self.known_m2 {
+            self.known_m2 = known_m2;
+            self.is_over();
+        }
+    }
+
+    /// The robot is at a pose.
+    pub fn follow(&mut self, pose: &Pose) {
+        if let Some((_, from)) = self.began {
+            self.farthest_m = self.farthest_m.max(pose.distance_to(from));
+        }
+    }
+
+    /// An attempt failed at a pose. Whether the robot should back off: the second failure
+    /// from one place says more about the place than about the goals.
+    pub fn fail(&mut self, pose: &Pose, now_s: f64) -> bool {
+        self.begin(pose, now_s);
+        if self.spot.is_some_and(|spot| pose.distance_to(spot) <= ONE_PLACE_M) {
+            self.failures_here += 1;
+        } else {
+            (self.spot, self.failures_here, self.back_offs_here) = (Some(pose.position()), 1, 0);
+        }
+        self.failures_here >= 2 && self.may_back_off()
+    }
+
+    /// Whether the robot has not backed off too often from here, and counts one more.
+    pub const fn may_back_off(&mut self) -> bool {
+        self.back_offs_here += 1;
+        self.back_offs_here <= BACK_OFFS
+    }
+
+    /// Nothing is left to try in this round: the rest before the next one, seconds.
+    pub fn next_round_s(&mut self, pose: &Pose, now_s: f64) -> f64 {
+        self.begin(pose, now_s);
+        self.rounds += 1;
+        2_f64.powi(self.rounds.min(10) as i32 - 1).min(LONGEST_PAUSE_S)
+    }
+
+    /// How long attempts have failed, seconds.
+    #[must_use]
+    pub fn lasts_s(&self, now_s: f64) -> f64 {
+        self.began.map_or(0.0, |(began_s, _)| now_s - began_s)
+    }
+
+    /// Whether the robot has not got away from where the trouble began.
+    #[must_use]
+    pub fn is_wedged(&self) -> bool {
+        self.began.is_some() && self.farthest_m < WEDGED_WITHIN_M
+    }
+
+    fn begin(&mut self, pose: &Pose, now_s: f64) {
+        if self.began.is_none() {
+            (self.began, self.farthest_m) = (Some((now_s, pose.position())), 0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_second_failure_from_one_place_is_the_places() {
+        let mut trouble = Trouble::default();
+        let (here, there) = (Pose::new(0.1, 0.0, 0.0), Pose::new(2.0, 0.0, 0.0));
+        assert!(!trouble.fail(&here, 10.0));
+        assert!(trouble.fail(&here, 20.0) && trouble.is_wedged());
+        assert!(trouble.fail(&here, 30.0) && trouble.fail(&here, 40.0));
+        assert!(!trouble.fail(&here, 50.0), "backing off has not helped");
+        trouble.follow(&there);
+        assert!(!trouble.is_wedged() && !trouble.fail(&there, 60.0));
+        assert_eq!(trouble.lasts_s(70.0), 60.0);
+        trouble.is_over();
+        assert_eq!((trouble.lasts_s(80.0), trouble.is_wedged()), (0.0, false));
+    }
+
+    #[test]
+    fn rests_grow() {
+        let mut trouble = Trouble::default();
+        let rests: Vec<f64> = (0..7).map(|_| trouble.next_round_s(&Pose::default(), 0.0)).collect();
+        assert_eq!(rests, [1.0, 2.0, 4.0, 8.0, 16.0, 16.0, 16.0]);
+    }
+}
