@@ -11,6 +11,7 @@ mod convert;
 mod display;
 mod embedded_master;
 mod explore_node;
+mod directory;
 mod feed;
 mod log;
 mod map_feed;

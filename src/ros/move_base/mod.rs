@@ -27,8 +27,8 @@ use std::time::Duration;
 const READY_WITHIN_S: f64 = 2.0;
 /// Status comes at 5 Hz or more, so a connection that is silent for longer is broken.
 const SILENCE: Duration = Duration::from_secs(5);
-/// Result and feedback come only now and then.
-const QUIET: Duration = Duration::from_secs(120);
+/// Result and feedback come only now and then: so often it is looked whether the server is met.
+const LOOK: Duration = Duration::from_secs(30);
 /// How long a service of move_base may take.
 const SERVICE_LIMIT: Duration = Duration::from_secs(3);
 
@@ -63,12 +63,12 @@ impl MoveBase {
             lock(&theirs).on_status(goals, owner.wall_s());
         });
         let (theirs, bell) = (Arc::clone(&tracker), Arc::clone(bell));
-        let result = node.listen(&topic("result"), 10, QUIET, move |message: MoveBaseActionResult, _| {
+        let result = node.listen_seldom(&topic("result"), 10, LOOK, move |message: MoveBaseActionResult, _| {
             let status = &message.status;
             lock(&theirs).on_result(&status.goal_id.id, GoalStatus::from_number(status.status), &status.text);
             bell.ring();
         });
-        let feedback = node.listen(&topic("feedback"), 5, QUIET, |_: MoveBaseActionFeedback, _| {});
+        let feedback = node.listen_seldom(&topic("feedback"), 5, LOOK, |_: MoveBaseActionFeedback, _| {});
         Ok(Self {
             goals: node.publish(&topic("goal"), 5)?,
             cancels: node.publish(&topic("cancel"), 5)?,
