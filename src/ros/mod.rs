@@ -13,6 +13,7 @@ mod embedded_master;
 mod explore_node;
 mod directory;
 mod feed;
+mod frames;
 mod log;
 mod map_feed;
 mod master;
