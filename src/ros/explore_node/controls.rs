@@ -2,7 +2,8 @@
 //! stop.
 
 use super::connect::Connected;
-use super::{ExploreNodeError, Settings, save_as};
+use super::saving::save_as;
+use super::{ExploreNodeError, Settings};
 use crate::geometry::{Point, Polygon};
 use crate::planning::GlobalPlanner;
 use crate::ros::feed::Feed;
