@@ -51,9 +51,11 @@ pub fn request() {
     STOP.store(true, Ordering::Relaxed);
 }
 
-/// From now on the process may end with this code: nothing is lost.
+/// From now on the process may end with this code: nothing is lost. The last will is
+/// dropped, and with it what it holds of the node.
 pub fn settle(code: u8) {
     CODE.store(i32::from(code), Ordering::Relaxed);
+    drop(WILL.lock().unwrap_or_else(PoisonError::into_inner).take());
 }
 
 /// What is to be done before the process ends, unless a code is settled before.
@@ -86,8 +88,8 @@ fn leave() {
             std::process::exit(1);
         });
         // A node that said nothing of its end has failed.
-        let code = WILL.lock().unwrap_or_else(PoisonError::into_inner).take().map_or(1, |will| will());
-        settle(code);
+        let will = WILL.lock().unwrap_or_else(PoisonError::into_inner).take();
+        settle(will.map_or(1, |will| will()));
     }
     std::thread::sleep(LEAVE_WITHIN.saturating_sub(began.elapsed()));
     std::process::exit(CODE.load(Ordering::Relaxed));
