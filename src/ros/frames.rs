@@ -20,35 +20,53 @@ const JUMP_S: f64 = 3.0;
 /// How far ahead of ROS time a stamp may be, beside the tolerance, seconds: what a SLAM
 /// adds on purpose, and a `/clock` that comes later than `/tf`.
 const AHEAD_S: f64 = 1.0;
+/// A transform that is stamped further ahead than this, seconds, while good ones of the same
+/// frame came in the last [`GOOD_FOR_S`], is late from before a jump back of time.
+const LATE_AHEAD_S: f64 = 2.0 * AHEAD_S;
+/// How long a good transform speaks against one that is stamped far ahead, seconds.
+const GOOD_FOR_S: f64 = 1.0;
+
+/// The last transform of a frame, in seconds of ROS time.
+#[derive(Clone, Copy)]
+struct Told {
+    stamp_s: f64,
+    arrived_s: f64,
+}
 
 /// What is known of the frames, and when it came.
 pub(super) struct Frames {
     buffer: TransformBuffer,
-    /// When each moving frame was last told of, ROS time in seconds.
-    arrivals_s: BTreeMap<String, f64>,
+    /// What was last told of each moving frame.
+    told: BTreeMap<String, Told>,
 }
 
 impl Frames {
     /// Nothing yet.
     pub const fn new() -> Self {
-        Self { buffer: TransformBuffer::new(HISTORY_S), arrivals_s: BTreeMap::new() }
+        Self { buffer: TransformBuffer::new(HISTORY_S), told: BTreeMap::new() }
     }
 
     /// Takes a transform in that came at `now_s`, which is 0 while there is no time yet.
+    /// One that is late from before a jump back of time is dropped.
     ///
     /// # Errors
     /// [`RejectedTransform`] for what cannot be a transform.
     pub fn take(&mut self, sample: &TransformSample, is_static: bool, now_s: f64) -> Result<(), RejectedTransform> {
-        let latest_s = now_s + AHEAD_S;
-        if !is_static && now_s > 0.0 && sample.stamp_s <= latest_s {
+        if is_static || now_s <= 0.0 {
+            return self.buffer.insert(sample, is_static);
+        }
+        let (child, stamp_s, latest_s) = (frame_name(&sample.child), sample.stamp_s, now_s + AHEAD_S);
+        let is_good = |told: &Told| told.stamp_s <= latest_s && (now_s - told.arrived_s).abs() <= GOOD_FOR_S;
+        if stamp_s > now_s + LATE_AHEAD_S && self.told.get(child).is_some_and(is_good) {
+            return Ok(());
+        }
+        if stamp_s <= latest_s {
             // What is stamped later came from before a jump back, or from a wrong clock: it
             // would hide this transform for as long as its stamp lies ahead.
-            self.buffer.forget_after(&sample.child, latest_s);
+            self.buffer.forget_after(child, latest_s);
         }
         self.buffer.insert(sample, is_static)?;
-        if !is_static {
-            self.arrivals_s.insert(frame_name(&sample.child).to_owned(), now_s);
-        }
+        self.told.insert(child.to_owned(), Told { stamp_s, arrived_s: now_s });
         Ok(())
     }
 
@@ -56,7 +74,7 @@ impl Frames {
     pub fn notice_time(&mut self, last_s: f64, now_s: f64) {
         if now_s < last_s - JUMP_S {
             self.buffer.clear_moving();
-            self.arrivals_s.clear();
+            self.told.clear();
         }
     }
 
@@ -114,7 +132,7 @@ impl Frames {
     }
 
     fn silence(&self, link: &MovingLink<'_>, now_s: f64, limit_s: f64) -> Option<PoseError> {
-        let silent_s = now_s - self.arrivals_s.get(link.child)?;
+        let silent_s = now_s - self.told.get(link.child)?.arrived_s;
         let (parent, child) = (link.parent.to_owned(), link.child.to_owned());
         (silent_s > limit_s).then_some(PoseError::Silent { parent, child, silent_s, limit_s })
     }
@@ -183,6 +201,7 @@ mod tests {
         tell(&mut frames, "base", 100.1, 100.1, 1.0);
         // One that was under way when time jumped.
         tell(&mut frames, "base", 230.0, 100.12, 9.0);
+        assert_eq!(pose(&frames, 100.12), Ok(1.0), "it is dropped");
         tell(&mut frames, "odom", 100.2, 100.2, 0.0);
         tell(&mut frames, "base", 100.2, 100.2, 2.0);
         assert_eq!(pose(&frames, 100.2), Ok(2.0));
@@ -191,6 +210,25 @@ mod tests {
         tell(&mut unnoticed, "odom", 100.1, 100.1, 0.0);
         tell(&mut unnoticed, "base", 100.1, 100.1, 3.0);
         assert_eq!(pose(&unnoticed, 100.1), Ok(3.0));
+        // And one that comes first gives way to the next.
+        let mut first = told(230.0, 0.0, 0.0);
+        first.notice_time(230.0, 100.0);
+        tell(&mut first, "base", 230.0, 100.0, 9.0);
+        tell(&mut first, "odom", 100.1, 100.1, 0.0);
+        assert!(pose(&first, 100.1).unwrap_err().contains("clock skew"));
+        tell(&mut first, "base", 100.1, 100.1, 4.0);
+        assert_eq!(pose(&first, 100.1), Ok(4.0));
+    }
+
+    #[test]
+    fn a_clock_that_goes_wrong_is_named_after_a_second() {
+        let mut frames = told(100.0, 0.0, 0.0);
+        for i in 1..=15 {
+            let now_s = 100.0 + 0.1 * f64::from(i);
+            tell(&mut frames, "odom", now_s + 120.0, now_s, 0.0);
+            tell(&mut frames, "base", now_s, now_s, 0.0);
+        }
+        assert!(pose(&frames, 101.5).unwrap_err().contains("clock skew: map -> odom is stamped 120.0 s ahead"));
     }
 
     #[test]
