@@ -119,7 +119,7 @@ fn frozen_master(world: &World) {
     ];
     let program = std::env::current_exe().unwrap();
     let master = Process::start_in(program, &[], world.folder.join("master.log"), &env);
-    let sim_args = ["_world:=office", "_speed:=1.0", "/use_sim_time:=true"];
+    let sim_args = ["_world:=office", "_speed:=1.0"];
     let sim_log = world.folder.join("sim.log");
     let _sim = Process::start_in(env!("CARGO_BIN_EXE_sim_node"), &sim_args, sim_log, &env[..1]);
     for signal in ["INT", "TERM"] {
