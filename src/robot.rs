@@ -45,6 +45,31 @@ pub enum PoseError {
         /// The allowed age in seconds.
         limit_s: f64,
     },
+    /// A transform bears a time that is still to come, as from a computer whose clock is
+    /// wrong: how old it really is cannot be told.
+    #[error("clock skew: {parent} -> {child} is stamped {ahead_s:.1} s ahead of ROS time: must be at most {limit_s} s")]
+    Skewed {
+        /// The upper frame of the link.
+        parent: String,
+        /// The frame that moves in it.
+        child: String,
+        /// By how much, seconds.
+        ahead_s: f64,
+        /// How much is allowed, seconds.
+        limit_s: f64,
+    },
+    /// A transform that was stamped ahead, as gmapping does, comes no more.
+    #[error("{parent} -> {child} has not come for {silent_s:.1} s: must come every {limit_s} s")]
+    Silent {
+        /// The upper frame of the link.
+        parent: String,
+        /// The frame that moves in it.
+        child: String,
+        /// Since the last one came, seconds.
+        silent_s: f64,
+        /// How long that may be, seconds.
+        limit_s: f64,
+    },
 }
 
 /// Identifies one command among those of a run; a repeated id is the same command

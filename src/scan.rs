@@ -31,7 +31,63 @@ pub enum Reading {
     None,
 }
 
+/// Why a scan shows nothing at all, not even free space.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoSight {
+    /// There are no rays.
+    #[error("it has no ranges")]
+    Empty,
+    /// Nobody can tell where the rays point.
+    #[error(
+        "angle_min is {angle_min_rad} and angle_increment {angle_increment_rad}: must be finite, the increment not 0"
+    )]
+    Angles {
+        /// As given, radians.
+        angle_min_rad: f64,
+        /// As given, radians.
+        angle_increment_rad: f64,
+    },
+    /// No ray measured anything.
+    #[error("none of its {rays} ranges is a measurement within {range_min_m} to {range_max_m} m")]
+    NoMeasurement {
+        /// How many rays there are.
+        rays: usize,
+        /// As given, metres.
+        range_min_m: f64,
+        /// As given, metres.
+        range_max_m: f64,
+    },
+}
+
 impl LaserScan {
+    /// Whether the scan shows something, be it free space: a lidar that is covered, dusty
+    /// or broken sends scans too.
+    ///
+    /// # Errors
+    /// [`NoSight`] with what is wrong.
+    pub fn sight(&self) -> Result<(), NoSight> {
+        let &Self { angle_min_rad, angle_increment_rad, range_min_m, range_max_m, .. } = self;
+        let rays = self.ranges_m.len();
+        if rays == 0 {
+            return Err(NoSight::Empty);
+        }
+        let are_angles = angle_min_rad.is_finite() && angle_increment_rad.is_finite();
+        if !are_angles || (rays > 1 && angle_increment_rad == 0.0) {
+            return Err(NoSight::Angles { angle_min_rad, angle_increment_rad });
+        }
+        // A range of 0 is what many drivers send for "nothing measured".
+        let measured = |&range: &f32| match self.reading(range) {
+            Reading::Hit(range_m) => range_m > 0.0,
+            Reading::Clear(range_m) => range_m > 0.0,
+            Reading::None => false,
+        };
+        if self.ranges_m.iter().any(measured) {
+            Ok(())
+        } else {
+            Err(NoSight::NoMeasurement { rays, range_min_m, range_max_m })
+        }
+    }
+
     /// Heading of ray `index` in the lidar's frame, radians.
     #[must_use]
     pub fn angle_rad(&self, index: usize) -> f64 {
@@ -85,6 +141,31 @@ mod tests {
         ];
         for (range, expected) in cases {
             assert_eq!(scan.reading(range), expected, "{range}");
+        }
+    }
+
+    #[test]
+    fn scans_that_show_nothing_are_no_sight() {
+        let whole = LaserScan {
+            angle_increment_rad: 0.1,
+            range_min_m: 0.1,
+            range_max_m: 5.0,
+            ranges_m: vec![f32::NAN, 0.0, 1.0],
+            ..LaserScan::default()
+        };
+        assert_eq!(whole.sight(), Ok(()));
+        let with = |ranges_m: &[f32]| LaserScan { ranges_m: ranges_m.to_vec(), ..whole.clone() };
+        assert_eq!(with(&[f32::INFINITY; 3]).sight(), Ok(()), "a free field is a sight");
+        assert_eq!(with(&[]).sight(), Err(NoSight::Empty));
+        for nothing in [f32::NAN, 0.0, f32::NEG_INFINITY, 9.0] {
+            let said = with(&[nothing; 3]).sight().unwrap_err().to_string();
+            assert_eq!(said, "none of its 3 ranges is a measurement within 0.1 to 5 m", "{nothing}");
+        }
+        assert!(LaserScan { range_min_m: 0.0, ..with(&[0.0; 3]) }.sight().is_err());
+        for (angle_min_rad, angle_increment_rad) in [(f64::NAN, 0.1), (0.0, f64::NAN), (0.0, 0.0), (0.0, f64::INFINITY)]
+        {
+            let scan = LaserScan { angle_min_rad, angle_increment_rad, ..whole.clone() };
+            assert!(matches!(scan.sight(), Err(NoSight::Angles { .. })), "{angle_min_rad} {angle_increment_rad}");
         }
     }
 }

@@ -4,41 +4,50 @@
 //! the new, never a part: the bytes go to a temporary file in the same directory,
 //! reach the disk, and take the name in one step.
 
+use super::destination::{Destination, folder_of, temporary_beside};
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Replaces the contents of `path`, or creates it. A symbolic link is followed. The
-/// directory must exist; new files get the permissions that the umask leaves.
+/// Replaces the contents of `path`, or creates it. A symbolic link is followed, and a
+/// device or a pipe is written to, as it must stay what it is. The directory must exist;
+/// new files get the permissions that the umask leaves.
 ///
 /// # Errors
-/// The first error of the file system; the old contents then still stand and the
-/// temporary file is gone.
+/// The first error of the file system; the old contents of a file then still stand and
+/// the temporary file is gone.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    let directory = match target.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
+    let target = match Destination::of(path)? {
+        Destination::Replace(target) => target,
+        Destination::Through(target) => {
+            let mut file = Destination::open(&target)?;
+            file.write_all(bytes)?;
+            return file.flush();
+        }
     };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".writing-");
-    #[cfg(unix)]
-    let permissions = {
-        use std::os::unix::fs::PermissionsExt;
-        fs::metadata(&target).map_or_else(|_| fs::Permissions::from_mode(0o666), |old| old.permissions())
-    };
-    #[cfg(unix)]
-    builder.permissions(permissions);
-    let mut file = builder.tempfile_in(directory)?;
+    let mut file = temporary_beside(&target)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(&target).map_err(|error| error.error)?;
     // The new name must reach the disk too; a file system that cannot open or sync a
     // directory has done all it can.
-    if let Ok(directory) = fs::File::open(directory) {
+    if let Ok(directory) = fs::File::open(folder_of(&target)) {
         let _ = directory.sync_all();
     }
     Ok(())
+}
+
+/// Whether `path` could be written now: its folder takes a file, or what stands there is
+/// a device or a pipe. Nothing is left behind and nothing is changed.
+///
+/// # Errors
+/// What the file system says against it.
+pub fn check_writable(path: &Path) -> io::Result<()> {
+    match Destination::of(path)? {
+        Destination::Replace(target) if target.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+        Destination::Replace(target) => temporary_beside(&target).map(drop),
+        Destination::Through(_) => Ok(()),
+    }
 }
 
 #[cfg(test)]
@@ -80,5 +89,54 @@ mod tests {
         fs::write(&plain, b"x").unwrap();
         let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
         assert_eq!(mode(&real), mode(&plain));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_to_a_file_that_is_to_come_stays_a_link() {
+        let dir = tempfile::tempdir().unwrap();
+        let link = dir.path().join("link");
+        std::os::unix::fs::symlink("to_come", &link).unwrap();
+        write_atomic(&link, b"one").unwrap();
+        assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+        assert_eq!(fs::read(dir.path().join("to_come")).unwrap(), b"one");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_written_to_and_stays_a_pipe() {
+        use std::os::unix::fs::FileTypeExt;
+        let dir = tempfile::tempdir().unwrap();
+        let pipe = dir.path().join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let reader = {
+            let pipe = pipe.clone();
+            std::thread::spawn(move || fs::read(pipe).unwrap())
+        };
+        write_atomic(&pipe, b"through").unwrap();
+        assert_eq!(reader.join().unwrap(), b"through");
+        assert!(fs::symlink_metadata(&pipe).unwrap().file_type().is_fifo());
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_takes_the_bytes_and_stays_a_device() {
+        use std::os::unix::fs::FileTypeExt;
+        let null = Path::new("/dev/null");
+        // Asked before it is tried: root could replace it.
+        assert_eq!(Destination::of(null).unwrap(), Destination::Through(null.to_owned()));
+        write_atomic(null, b"gone").unwrap();
+        assert!(fs::symlink_metadata(null).unwrap().file_type().is_char_device());
+        assert!(write_atomic(Path::new("/dev/full"), b"no room").is_err());
+    }
+
+    #[test]
+    fn what_cannot_be_written_is_known_before() {
+        let dir = tempfile::tempdir().unwrap();
+        assert!(check_writable(&dir.path().join("a.txt")).is_ok());
+        assert!(check_writable(&dir.path().join("nowhere/a.txt")).is_err());
+        assert!(check_writable(dir.path()).is_err());
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
     }
 }

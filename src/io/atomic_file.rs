@@ -1,34 +1,36 @@
 //! A file that is written little by little and appears whole.
 
+use super::destination::{Destination, temporary_beside};
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
+/// Where the bytes go meanwhile.
+enum Inner {
+    /// Beside the file that it will replace.
+    Beside(NamedTempFile, PathBuf),
+    /// Straight into a device or a pipe.
+    Through(File),
+}
+
 /// A file under way; without [`AtomicFile::commit`] nothing is left of it.
 pub struct AtomicFile {
-    file: NamedTempFile,
-    path: PathBuf,
+    inner: Inner,
 }
 
 impl AtomicFile {
-    /// Begins a file that shall be at `path`, whose directory must exist.
+    /// Begins a file that shall be at `path`, whose directory must exist. A symbolic
+    /// link is followed; a device or a pipe is written to at once.
     ///
     /// # Errors
     /// The first error of the file system.
     pub fn create(path: &Path) -> io::Result<Self> {
-        let directory = match path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
+        let inner = match Destination::of(path)? {
+            Destination::Replace(target) => Inner::Beside(temporary_beside(&target)?, target),
+            Destination::Through(target) => Inner::Through(Destination::open(&target)?),
         };
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(".writing-");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        Ok(Self { file: builder.tempfile_in(directory)?, path: path.to_owned() })
+        Ok(Self { inner })
     }
 
     /// Puts the file in its place.
@@ -36,13 +38,21 @@ impl AtomicFile {
     /// # Errors
     /// The first error of the file system.
     pub fn commit(self) -> io::Result<()> {
-        self.file.as_file().sync_all()?;
-        self.file.persist(&self.path).map_err(|error| error.error)?;
-        Ok(())
+        match self.inner {
+            Inner::Beside(file, target) => {
+                file.as_file().sync_all()?;
+                file.persist(target).map_err(|error| error.error)?;
+                Ok(())
+            }
+            Inner::Through(mut file) => file.flush(),
+        }
     }
 
     fn file(&mut self) -> &mut File {
-        self.file.as_file_mut()
+        match &mut self.inner {
+            Inner::Beside(file, _) => file.as_file_mut(),
+            Inner::Through(file) => file,
+        }
     }
 }
 
@@ -59,5 +69,31 @@ impl Write for AtomicFile {
 impl Seek for AtomicFile {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.file().seek(to)
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::{FileTypeExt, symlink};
+
+    #[test]
+    fn links_and_devices_stay_what_they_are() {
+        let dir = tempfile::tempdir().unwrap();
+        let (real, link) = (dir.path().join("real"), dir.path().join("link"));
+        symlink(&real, &link).unwrap();
+        let mut file = AtomicFile::create(&link).unwrap();
+        file.write_all(b"whole").unwrap();
+        assert!(!real.exists());
+        file.commit().unwrap();
+        assert_eq!(std::fs::read(&real).unwrap(), b"whole");
+        assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
+
+        let null = Path::new("/dev/null");
+        assert_eq!(Destination::of(null).unwrap(), Destination::Through(null.to_owned()));
+        let mut file = AtomicFile::create(null).unwrap();
+        file.write_all(b"gone").unwrap();
+        file.commit().unwrap();
+        assert!(std::fs::symlink_metadata(null).unwrap().file_type().is_char_device());
     }
 }

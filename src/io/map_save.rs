@@ -6,6 +6,7 @@
 //! the number exactly; elsewhere as many digits as the number needs. The image is
 //! named without its directory, so that the two files can be moved together.
 
+use super::atomic::check_writable;
 use super::{MapError, write_atomic};
 use crate::grid::{CellState, GridInfo, OccupancyGrid, Thresholds};
 use image::{ExtendedColorType, ImageFormat};
@@ -65,16 +66,7 @@ pub struct SavedPaths {
 /// file system refuses.
 pub fn save_map(path: &Path, grid: &OccupancyGrid, options: &SaveOptions) -> Result<SavedPaths, MapError> {
     options.thresholds.validate()?;
-    let nameless = || MapError::SaveName { path: path.to_path_buf() };
-    let name = path.file_name().and_then(|name| name.to_str()).ok_or_else(nameless)?;
-    let stem = [".yaml", ".yml"].iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
-    if stem.is_empty() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
-        return Err(nameless());
-    }
-    let yaml_name = if stem == name { format!("{stem}.yaml") } else { name.to_owned() };
-    let image_name = format!("{stem}.{}", options.image.extension());
-    let paths = SavedPaths { yaml: path.with_file_name(yaml_name), image: path.with_file_name(&image_name) };
-
+    let (paths, image_name) = saved_paths(path, options.image)?;
     let pixels = pixels(grid, &options.thresholds);
     let image = match options.image {
         MapImage::Pgm => pgm(grid.info(), &pixels),
@@ -87,6 +79,38 @@ pub fn save_map(path: &Path, grid: &OccupancyGrid, options: &SaveOptions) -> Res
     write(&paths.image, &image)?;
     write(&paths.yaml, yaml(grid.info(), &image_name).as_bytes())?;
     Ok(paths)
+}
+
+/// Tries whether [`save_map`] could write there now, and leaves nothing behind.
+///
+/// # Errors
+/// [`MapError`] for a path that is no file name, and what the file system refuses.
+pub fn check_map_path(path: &Path, image: MapImage) -> Result<SavedPaths, MapError> {
+    let (paths, _) = saved_paths(path, image)?;
+    for path in [&paths.image, &paths.yaml] {
+        check_writable(path).map_err(|source| MapError::Write { path: path.clone(), source })?;
+    }
+    Ok(paths)
+}
+
+/// The two files of a map, and the image's name in the YAML file. A device or a pipe is
+/// not one of them: it cannot hold both.
+fn saved_paths(path: &Path, image: MapImage) -> Result<(SavedPaths, String), MapError> {
+    let nameless = || MapError::SaveName { path: path.to_path_buf() };
+    let name = path.file_name().and_then(|name| name.to_str()).ok_or_else(nameless)?;
+    let stem = [".yaml", ".yml"].iter().find_map(|end| name.strip_suffix(end)).unwrap_or(name);
+    if stem.is_empty() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(nameless());
+    }
+    let is_special = std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    if is_special {
+        let (found, expected) = ("a device or a pipe", "a name for the two files of a map");
+        return Err(MapError::NotAFile { path: path.to_path_buf(), found, expected });
+    }
+    let yaml_name = if stem == name { format!("{stem}.yaml") } else { name.to_owned() };
+    let image_name = format!("{stem}.{}", image.extension());
+    let paths = SavedPaths { yaml: path.with_file_name(yaml_name), image: path.with_file_name(&image_name) };
+    Ok((paths, image_name))
 }
 
 /// One grey a cell, top row first.
@@ -210,6 +234,18 @@ mod tests {
         }
         let message = save_map(Path::new("/nowhere/x/map"), &grid, &SaveOptions::default()).unwrap_err().to_string();
         assert!(message.contains("cannot write /nowhere/x/map.pgm"), "{message}");
+        let message = save_map(Path::new("/dev/null"), &grid, &SaveOptions::default()).unwrap_err().to_string();
+        assert_eq!(message, "/dev/null is a device or a pipe: must be a name for the two files of a map");
+    }
+
+    #[test]
+    fn where_a_map_cannot_be_saved_is_known_before() {
+        let dir = tempfile::tempdir().unwrap();
+        let tried = check_map_path(&dir.path().join("lab"), MapImage::Pgm).unwrap();
+        assert_eq!(tried.image, dir.path().join("lab.pgm"));
+        assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is left behind");
+        let message = check_map_path(Path::new("/nowhere/x/map"), MapImage::Pgm).unwrap_err().to_string();
+        assert!(message.starts_with("cannot write /nowhere/x/map.pgm"), "{message}");
     }
 
     proptest! {

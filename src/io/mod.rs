@@ -6,6 +6,7 @@
 
 mod atomic;
 mod atomic_file;
+mod destination;
 mod error;
 mod image_file;
 mod map_load;
@@ -19,7 +20,7 @@ pub use atomic::write_atomic;
 pub use atomic_file::AtomicFile;
 pub use error::MapError;
 pub use map_load::{LoadedMap, load_map, map_from_bytes};
-pub use map_save::{MapImage, SaveOptions, SavedPaths, save_map};
+pub use map_save::{MapImage, SaveOptions, SavedPaths, check_map_path, save_map};
 pub use map_yaml::{MapMode, MapYaml};
 pub use settings::{SettingsFileError, file_stem, load_preset, load_robot};
 pub use worlds::{BUILT_IN_WORLDS, load_world};

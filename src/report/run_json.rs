@@ -230,7 +230,7 @@ mod tests {
         let top: Vec<&str> = json.lines().filter_map(|line| line.strip_prefix("  \"")?.split('"').next()).collect();
         assert_eq!(top.first(), Some(&"schema_version"));
         assert_eq!(top.last(), Some(&"wall"));
-        assert_eq!(top.len(), 24);
+        assert_eq!(top.len(), 25);
     }
 
     #[test]

@@ -1,12 +1,18 @@
-//! Listening to a topic: on a thread of its own, and again when it falls silent.
+//! Listening to a topic: on a thread of its own, and again when its connection is lost.
 //!
 //! rosrust's `subscribe` blocks as long as any publisher of the topic hangs, does not
 //! connect anew after a connection broke, and a callback that panics ends its
 //! subscription without a word. Here a thread subscribes, watches the age of the
-//! messages, and a panic ends the node with an error.
+//! messages and the master's list of publishers, and a panic ends the node with an error.
 
+mod renewal;
+
+pub use renewal::Rhythm;
+
+use super::log::Level;
 use super::node::{Node, describe};
-use rosrust::Message;
+use renewal::{Listed, Renewal, Seen};
+use rosrust::{Message, Subscriber};
 use std::collections::{BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -14,15 +20,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::Thread;
 use std::time::{Duration, Instant};
 
-/// The longest time from one attempt to the next.
-const LONGEST_SILENCE: Duration = Duration::from_secs(120);
+/// From one look at the age of the messages to the next, at the most.
+const SLICE: Duration = Duration::from_millis(500);
 
 struct Shared {
     closed: AtomicBool,
     /// Milliseconds since the feed was opened; 0 is never.
     last_message_ms: AtomicU64,
     opened: Instant,
-    /// The nodes that have sent, or that connected to send.
+    /// The nodes that have sent by this subscription, or that connected to send.
     callers: Mutex<BTreeSet<String>>,
 }
 
@@ -33,13 +39,12 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Begins to listen. After `silence` without a message the subscription is made
-    /// anew, then after twice that, and so on.
+    /// Begins to listen to a topic that talks in some rhythm.
     pub(super) fn open<T: Message>(
         node: &Node,
         topic: &str,
         queue: usize,
-        silence: Duration,
+        rhythm: Rhythm,
         on_message: impl Fn(T, &str) + Send + Sync + 'static,
     ) -> Self {
         let shared = Arc::new(Shared {
@@ -49,7 +54,7 @@ impl Feed {
             callers: Mutex::default(),
         });
         let (theirs, node, topic) = (Arc::clone(&shared), node.clone(), topic.to_owned());
-        let keeper = std::thread::spawn(move || keep(&node, &topic, queue, silence, &theirs, &Arc::new(on_message)));
+        let keeper = std::thread::spawn(move || keep(&node, &topic, queue, rhythm, &theirs, &Arc::new(on_message)));
         Self { shared, keeper: keeper.thread().clone() }
     }
 
@@ -94,44 +99,68 @@ impl Shared {
     }
 }
 
-/// Holds a subscription and makes it anew when the topic is silent for too long.
+/// Holds a subscription and makes it anew when that helps.
 fn keep<T: Message>(
     node: &Node,
     topic: &str,
     queue: usize,
-    silence: Duration,
+    rhythm: Rhythm,
     shared: &Arc<Shared>,
     on_message: &Arc<impl Fn(T, &str) + Send + Sync + 'static>,
 ) {
-    let mut patience = silence;
+    let mut renewal = Renewal::new(rhythm);
+    let full_name = node.full_name(topic);
+    let slice = SLICE.min(rhythm.period() / 4);
     while !shared.closed.load(Ordering::Relaxed) && node.is_ok() {
-        let (heard, met) = (Arc::clone(shared), Arc::clone(shared));
-        let (handler, guarded, name) = (Arc::clone(on_message), node.clone(), topic.to_owned());
-        let subscriber = node.ros().subscribe_with_ids_and_headers(
-            topic,
-            queue,
-            move |message: T, caller: &str| {
-                heard.heard();
-                heard.met(caller);
-                if catch_unwind(AssertUnwindSafe(|| handler(message, caller))).is_err() {
-                    guarded.fail(&format!("a message of {name} from {caller} broke the node: this is a bug"));
-                }
-            },
-            move |headers: HashMap<String, String>| {
-                if let Some(caller) = headers.get("callerid") {
-                    met.met(caller);
-                }
-            },
-        );
+        shared.callers.lock().unwrap_or_else(PoisonError::into_inner).clear();
+        let subscriber = subscribe(node, topic, queue, shared, on_message);
         if let Err(error) = &subscriber {
-            node.log().warn(format_args!("cannot listen to {topic}: {}", describe(error)));
+            node.log().once(Level::Warn, format_args!("cannot listen to {topic}: {}", describe(error)));
         }
         let began = Instant::now();
-        let is_silent = || shared.age().map_or(began.elapsed(), |age| age.min(began.elapsed())) >= patience;
-        while !shared.closed.load(Ordering::Relaxed) && node.is_ok() && !is_silent() {
-            std::thread::park_timeout(Duration::from_millis(500));
+        renewal.begin();
+        while !shared.closed.load(Ordering::Relaxed) && node.is_ok() {
+            std::thread::park_timeout(slice);
+            let now = began.elapsed();
+            let spoke = shared.age().and_then(|age| now.checked_sub(age));
+            if !renewal.wants_look(now, spoke) {
+                continue;
+            }
+            let listed = node.listing(rhythm.period() / 2).map(|listing| Listed {
+                publishers: listing.publishers(&full_name),
+                hears: listing.subscribers(&full_name).contains(node.name()),
+            });
+            let met = shared.callers.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            if renewal.is_due(&Seen { now, spoke, met, listed }) || subscriber.is_err() {
+                break;
+            }
         }
-        let has_spoken = shared.age().is_some_and(|age| age < began.elapsed());
-        patience = if has_spoken { silence } else { (2 * patience).min(LONGEST_SILENCE) };
     }
+}
+
+fn subscribe<T: Message>(
+    node: &Node,
+    topic: &str,
+    queue: usize,
+    shared: &Arc<Shared>,
+    on_message: &Arc<impl Fn(T, &str) + Send + Sync + 'static>,
+) -> Result<Subscriber, rosrust::error::Error> {
+    let (heard, met) = (Arc::clone(shared), Arc::clone(shared));
+    let (handler, guarded, name) = (Arc::clone(on_message), node.clone(), topic.to_owned());
+    node.ros().subscribe_with_ids_and_headers(
+        topic,
+        queue,
+        move |message: T, caller: &str| {
+            heard.heard();
+            heard.met(caller);
+            if catch_unwind(AssertUnwindSafe(|| handler(message, caller))).is_err() {
+                guarded.fail(&format!("a message of {name} from {caller} broke the node: this is a bug"));
+            }
+        },
+        move |headers: HashMap<String, String>| {
+            if let Some(caller) = headers.get("callerid") {
+                met.met(caller);
+            }
+        },
+    )
 }

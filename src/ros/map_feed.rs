@@ -3,6 +3,7 @@
 
 use super::bell::Bell;
 use super::convert;
+use super::directory::list;
 use super::feed::Feed;
 use super::log::Level;
 use super::msg::map_msgs::OccupancyGridUpdate;
@@ -12,9 +13,12 @@ use crate::grid::OccupancyGrid;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// After this time without a map the subscription is made anew: a latched topic then
-/// tells the last one again.
+/// A mapper that has sent maps and is silent for longer may have lost its connection.
 const SILENCE: Duration = Duration::from_secs(60);
+/// The type of maps.
+const MAP_TYPE: &str = "nav_msgs/OccupancyGrid";
+/// How old an answer of the master may be when it is asked for maps.
+const LISTING_AGE: Duration = Duration::from_secs(5);
 /// A header's time is believed up to this long before the arrival, seconds.
 const OLDEST_STAMP_S: f64 = 30.0;
 
@@ -82,10 +86,24 @@ impl MapFeed {
         MapReader(Arc::clone(&self.state))
     }
 
-    /// The topic's name.
+    /// Why no map has come after so many seconds, if none has: who publishes the topic
+    /// that `parameter` names, and which topics with maps there are instead.
     #[must_use]
-    pub fn topic(&self) -> &str {
-        &self.topic
+    pub fn missing(&self, node: &Node, parameter: &str, waited_s: f64) -> Option<String> {
+        if lock(&self.state).map.is_some() {
+            return None;
+        }
+        let topic = node.full_name(&self.topic);
+        let silent = format!("no map has come on {topic} ({parameter}) for {waited_s:.0} s");
+        let Some(listing) = node.listing(LISTING_AGE) else { return Some(silent) };
+        let publishers = listing.publishers(&topic);
+        let maps: Vec<String> =
+            listing.published(MAP_TYPE).map(|(other, nodes)| format!("{other} (of {})", list(nodes))).collect();
+        Some(match listing.type_of(&topic) {
+            _ if publishers.is_empty() => format!("{silent}: nobody publishes it; topics with maps: {}", list(&maps)),
+            Some(MAP_TYPE) | None => format!("{silent}: {} publishes it and has sent none", list(&publishers)),
+            Some(other) => format!("{silent}: it is a {other}; topics with maps: {}", list(&maps)),
+        })
     }
 }
 

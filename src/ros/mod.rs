@@ -7,11 +7,14 @@
 mod bell;
 mod call;
 mod clock;
+mod clock_watch;
 mod convert;
+mod directory;
 mod display;
 mod embedded_master;
 mod explore_node;
 mod feed;
+mod frames;
 mod log;
 mod map_feed;
 mod master;
@@ -28,6 +31,7 @@ mod scan_feed;
 mod sim_node;
 pub mod stop;
 mod transforms;
+mod troubles;
 mod turn_goals;
 
 pub use call::{CallError, call};

@@ -1,6 +1,7 @@
 //! One ROS node: rosrust behind the guards that a robot needs.
 
-use super::feed::Feed;
+use super::directory::{Directory, Listing};
+use super::feed::{Feed, Rhythm};
 use super::log::{Level, Log, bridge};
 use super::master::{MasterError, probe};
 use super::{params, stop};
@@ -57,6 +58,7 @@ pub struct Node {
     began: Instant,
     failed: Arc<AtomicBool>,
     closing: Arc<AtomicBool>,
+    directory: Arc<Directory>,
 }
 
 impl Node {
@@ -76,7 +78,14 @@ impl Node {
         let ros = Ros::new(name).map_err(|e| wrong(describe(&e)))?;
         let rosout = ros.publish("/rosout", 100).map_err(|e| wrong(describe(&e)))?;
         log.connect(ros.name(), rosout);
-        Ok(Self { ros: Arc::new(ros), log, began: Instant::now(), failed: Arc::default(), closing: Arc::default() })
+        Ok(Self {
+            ros: Arc::new(ros),
+            log,
+            began: Instant::now(),
+            failed: Arc::default(),
+            closing: Arc::default(),
+            directory: Arc::default(),
+        })
     }
 
     /// What it says.
@@ -185,8 +194,8 @@ impl Node {
             .map_err(|e| NodeError::Offer { name: service.to_owned(), why: describe(&e) })
     }
 
-    /// Listens to a topic on a thread of its own, and again when the topic falls silent
-    /// for longer than that.
+    /// Listens to a topic on a thread of its own. When it has talked and is silent for
+    /// longer than `silence`, the subscription is made anew.
     pub fn listen<T: Message>(
         &self,
         topic: &str,
@@ -194,7 +203,30 @@ impl Node {
         silence: Duration,
         on_message: impl Fn(T, &str) + Send + Sync + 'static,
     ) -> Feed {
-        Feed::open(self, topic, queue, silence, on_message)
+        Feed::open(self, topic, queue, Rhythm::Steady(silence), on_message)
+    }
+
+    /// Listens to a topic that may rightly be silent. Every `period` it is looked whether
+    /// all its publishers are met; silence alone is no reason to subscribe anew.
+    pub fn listen_seldom<T: Message>(
+        &self,
+        topic: &str,
+        queue: usize,
+        period: Duration,
+        on_message: impl Fn(T, &str) + Send + Sync + 'static,
+    ) -> Feed {
+        Feed::open(self, topic, queue, Rhythm::Seldom(period), on_message)
+    }
+
+    /// What the master last said of topics and nodes. An answer older than `max_age` is
+    /// asked for anew, for the next call; nobody waits for it.
+    pub(super) fn listing(&self, max_age: Duration) -> Option<Arc<Listing>> {
+        self.directory.look(&self.ros, max_age)
+    }
+
+    /// A name as the master knows it: in the node's namespace, and remapped.
+    pub(super) fn full_name(&self, name: &str) -> String {
+        self.ros.param(name).map_or_else(|| name.to_owned(), |param| param.name().to_owned())
     }
 
     /// Marks the node as failed: it stops as if it were told to.

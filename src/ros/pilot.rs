@@ -2,12 +2,14 @@
 //! navigator that drives in the simulator too. Turns on the spot always go this way
 //! unless move_base makes them; goals only where there is no move_base.
 
+use super::clock_watch::ClockWatch;
 use super::convert;
 use super::log::Level;
 use super::msg::geometry_msgs::Twist as TwistMessage;
 use super::node::{Node, NodeError};
 use super::scan_feed::ScanFeed;
 use super::transforms::Transforms;
+use super::troubles::{Trouble, Troubles};
 use crate::control::StopGuard;
 use crate::geometry::{Body, Path, Point, Pose, Twist};
 use crate::grid::Costmap;
@@ -20,10 +22,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-/// A scan older than this no longer tells what is ahead, seconds.
-const SCAN_LIMIT_S: f64 = 1.0;
+/// A robot whose clock stands for this long does not know what happens: it stands still.
+const CLOCK_LIMIT: Duration = Duration::from_millis(500);
 /// From one look at the time to the next.
 const SLICE: Duration = Duration::from_millis(10);
+/// A lidar may begin after the node, seconds of real time.
+const SCANS_WITHIN_S: f64 = 3.0;
 /// How often standing still is said when a motion ends: a message may get lost.
 const FAREWELLS: u8 = 3;
 
@@ -67,6 +71,7 @@ impl Pilot {
         navigator: Navigator,
         transforms: Arc<Transforms>,
         scans: Option<Arc<ScanFeed>>,
+        troubles: &Troubles,
     ) -> Result<Self, NodeError> {
         let commands = node.publish("cmd_vel", 1)?;
         let shared = Arc::new(Mutex::new(Shared {
@@ -83,6 +88,7 @@ impl Pilot {
             guard,
             transforms,
             scans,
+            troubles: troubles.clone(),
             commands,
             last: Twist::ZERO,
             farewells: FAREWELLS,
@@ -142,6 +148,7 @@ struct Wheel {
     guard: StopGuard,
     transforms: Arc<Transforms>,
     scans: Option<Arc<ScanFeed>>,
+    troubles: Troubles,
     commands: Publisher<TwistMessage>,
     last: Twist,
     /// How often standing still has been said.
@@ -151,10 +158,14 @@ struct Wheel {
 impl Wheel {
     fn turn(mut self, shared: &Mutex<Shared>, stop: &AtomicBool) {
         let mut next_s = f64::NEG_INFINITY;
+        let mut clock = ClockWatch::new();
         while !stop.load(Ordering::Relaxed) && self.node.is_ok() {
             let now_s = self.node.now_s();
             // Time that has jumped back begins anew.
-            if now_s >= next_s || now_s < next_s - 2.0 * self.config.control_period_s {
+            if clock.stands_for(now_s) >= CLOCK_LIMIT {
+                // No tick would come that could stop the robot.
+                self.stand_still();
+            } else if now_s >= next_s || now_s < next_s - 2.0 * self.config.control_period_s {
                 next_s = now_s + self.config.control_period_s;
                 self.tick(shared, now_s);
             }
@@ -167,6 +178,7 @@ impl Wheel {
 
     fn tick(&mut self, shared: &Mutex<Shared>, now_s: f64) {
         let mut shared = lock(shared);
+        let scan = self.look(&shared.map_frame, now_s);
         if shared.navigation.state != NavigationState::Active {
             drop(shared);
             self.stand_still();
@@ -179,9 +191,7 @@ impl Wheel {
             self.stand_still();
             return;
         };
-        let scan = self.scan(&shared.map_frame, now_s);
         if self.config.drives_to_goals && scan.is_none() {
-            self.node.log().once(Level::Warn, "no scan of the last second tells what is ahead: standing still");
             drop(shared);
             self.stand_still();
             return;
@@ -210,9 +220,26 @@ impl Wheel {
         let _ = self.commands.send(convert::twist_message(&twist));
     }
 
-    fn scan(&self, map_frame: &str, now_s: f64) -> Option<(Pose, LaserScan)> {
-        let (pose, scan) = self.scans.as_ref()?.newest_in(map_frame, &self.transforms)?;
-        (now_s - scan.stamp_s <= SCAN_LIMIT_S).then_some((pose, scan))
+    /// The scan that tells what is ahead. Where goals come this way and there is none, the
+    /// robot stands still, and it is said why.
+    fn look(&self, map_frame: &str, now_s: f64) -> Option<(Pose, LaserScan)> {
+        let scans = self.scans.as_ref()?;
+        if map_frame.is_empty() {
+            return None;
+        }
+        match scans.fresh_in(map_frame, &self.transforms, now_s) {
+            Ok(scan) => {
+                self.troubles.clear(Trouble::Scan);
+                Some(scan)
+            }
+            Err(why) => {
+                let may_be_told = scans.has_begun() || self.node.wall_s() > SCANS_WITHIN_S;
+                if self.config.drives_to_goals && may_be_told {
+                    self.troubles.report(Trouble::Scan, Level::Warn, format_args!("{why}; standing still"));
+                }
+                None
+            }
+        }
     }
 
     /// Says zero a few times, then leaves `cmd_vel` to others.

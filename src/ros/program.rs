@@ -6,7 +6,8 @@ use super::stop;
 use std::fmt::Display;
 
 /// Starts a node, lets it work, and says good-bye. Returns the exit code: what the work
-/// returns, or 1 with a line on what failed.
+/// returns, or 1 with a line on what failed. Told to stop, the process ends within two
+/// seconds; what must not be lost then is for the work to say (`stop::set_will`).
 pub(super) fn run_program<E: Display>(name: &str, work: impl FnOnce(&Node) -> Result<u8, E>) -> u8 {
     let failed = |why: &dyn Display| {
         Log::new(name).error(why);
@@ -15,6 +16,8 @@ pub(super) fn run_program<E: Display>(name: &str, work: impl FnOnce(&Node) -> Re
     if let Err(why) = stop::listen() {
         return failed(&why);
     }
+    // Told to stop before it has anything to lose, it leaves as if all were done.
+    stop::settle(0);
     let node = match Node::start(name) {
         Ok(node) => node,
         Err(NodeError::Stopped) => return 0,

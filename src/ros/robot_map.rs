@@ -1,7 +1,6 @@
 //! The map as the explorer sees it: the newest one, with its costmap.
 
 use super::clock::RunClock;
-use super::log::Level;
 use super::map_feed::{MapFeed, ReceivedMap};
 use super::node::Node;
 use crate::grid::{Costmap, Inflation, Thresholds};
@@ -51,15 +50,25 @@ impl RobotMap {
         self.received().map_or("map", |received| received.frame.as_str())
     }
 
+    /// Why no map has come after so many seconds, if none has.
+    #[must_use]
+    pub fn missing_map(&self, node: &Node, waited_s: f64) -> Option<String> {
+        self.map.missing(node, "~map_topic", waited_s)
+    }
+
+    /// Why no costmap has come after so many seconds, if one is needed and none has.
+    #[must_use]
+    pub fn missing_costmap(&self, node: &Node, waited_s: f64) -> Option<String> {
+        self.costmap.as_ref()?.missing(node, "~global_costmap_topic", waited_s)
+    }
+
     /// Takes the newest map and costmap in; whether one of them is new.
-    pub fn take_newest(&mut self, node: &Node, clock: &RunClock) -> bool {
+    pub fn take_newest(&mut self, clock: &RunClock) -> bool {
         let received = self.map.newest();
         let costmap = self.costmap.as_mut().map(MapFeed::newest);
         let Some(received) = received else { return false };
         // A costmap that is to come is waited for.
         if matches!(costmap, Some(None)) {
-            let topic = self.costmap.as_ref().map_or("", MapFeed::topic);
-            node.log().once(Level::Warn, format_args!("a map has come; waiting for the costmap on {topic}"));
             return false;
         }
         let costmap = costmap.flatten();

@@ -2,27 +2,24 @@
 
 use super::convert;
 use super::feed::Feed;
+use super::frames::Frames;
 use super::log::Level;
 use super::msg::tf2_msgs::TFMessage;
 use super::node::Node;
 use crate::geometry::Pose;
 use crate::robot::PoseError;
-use crate::tf::{TransformBuffer, TransformError, frame_name, is_upside_down, planar};
+use crate::tf::TransformError;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How far back transforms are remembered, seconds, as in tf2.
-const HISTORY_S: f64 = 10.0;
-/// A stamp this far before the last one is a jump back in time, seconds.
-const JUMP_S: f64 = 3.0;
 /// After this time without a transform the subscription is made anew.
 const SILENCE: Duration = Duration::from_secs(10);
-/// Fixed transforms are told once; a lost connection is found after this time.
-const STATIC_SILENCE: Duration = Duration::from_secs(60);
+/// Fixed transforms are told once: so often it is looked whether all who tell them are met.
+const STATIC_LOOK: Duration = Duration::from_secs(60);
 
 /// What is known of the frames.
 pub struct Transforms {
-    buffer: Arc<Mutex<TransformBuffer>>,
+    frames: Arc<Mutex<Frames>>,
     _feeds: [Feed; 2],
 }
 
@@ -30,46 +27,35 @@ impl Transforms {
     /// Begins to listen.
     #[must_use]
     pub fn listen(node: &Node) -> Self {
-        let buffer = Arc::new(Mutex::new(TransformBuffer::new(HISTORY_S)));
-        let feed = |topic: &'static str, silence: Duration, is_static: bool| {
-            let (buffer, log) = (Arc::clone(&buffer), node.log().clone());
-            node.listen(topic, 100, silence, move |message: TFMessage, caller| {
-                let mut buffer = lock(&buffer);
+        let frames = Arc::new(Mutex::new(Frames::new()));
+        let taker = |topic: &'static str, is_static: bool| {
+            let (frames, owner) = (Arc::clone(&frames), node.clone());
+            move |message: TFMessage, caller: &str| {
+                let now_s = owner.now_s();
+                let mut frames = lock(&frames);
                 for sample in convert::transforms(message) {
-                    if let Err(error) = buffer.insert(&sample, is_static) {
-                        log.once(Level::Warn, format_args!("{topic} from {caller}: {error}"));
+                    if let Err(error) = frames.take(&sample, is_static, now_s) {
+                        owner.log().once(Level::Warn, format_args!("{topic} from {caller}: {error}"));
                     }
                 }
-            })
+            }
         };
-        let feeds = [feed("/tf", SILENCE, false), feed("/tf_static", STATIC_SILENCE, true)];
-        Self { buffer, _feeds: feeds }
+        let moving = node.listen("/tf", 100, SILENCE, taker("/tf", false));
+        let fixed = node.listen_seldom("/tf_static", 100, STATIC_LOOK, taker("/tf_static", true));
+        Self { frames, _feeds: [moving, fixed] }
     }
 
     /// Forgets what moves, when time has jumped back from `last_s` to `now_s`.
     pub fn notice_time(&self, last_s: f64, now_s: f64) {
-        if now_s < last_s - JUMP_S {
-            lock(&self.buffer).clear_moving();
-        }
+        lock(&self.frames).notice_time(last_s, now_s);
     }
 
     /// Where a robot is in the map frame now.
     ///
     /// # Errors
-    /// [`PoseError`] when no transform leads there, or the newest is too old.
+    /// [`PoseError`] when no transform leads there, or one cannot be believed.
     pub fn robot(&self, map: &str, base: &str, now_s: f64, limit_s: f64) -> Result<Pose, PoseError> {
-        let names = || (frame_name(map).to_owned(), frame_name(base).to_owned());
-        match lock(&self.buffer).latest(map, base) {
-            Ok(newest) if now_s - newest.stamp_s <= limit_s => Ok(planar(&newest.transform)),
-            Ok(newest) => {
-                let (map_frame, base_frame) = names();
-                Err(PoseError::Stale { map_frame, base_frame, age_s: now_s - newest.stamp_s, limit_s })
-            }
-            Err(error) => {
-                let (map_frame, base_frame) = names();
-                Err(PoseError::NotYet { map_frame, base_frame, why: error.to_string() })
-            }
-        }
+        lock(&self.frames).robot(map, base, now_s, limit_s)
     }
 
     /// Where a sensor was in another frame at a time, and whether it hung upside down.
@@ -77,11 +63,10 @@ impl Transforms {
     /// # Errors
     /// [`TransformError`] when no transform leads there.
     pub fn sensor(&self, target: &str, sensor: &str, stamp_s: f64) -> Result<(Pose, bool), TransformError> {
-        let transform = lock(&self.buffer).at(target, sensor, stamp_s)?;
-        Ok((planar(&transform), is_upside_down(&transform)))
+        lock(&self.frames).sensor(target, sensor, stamp_s)
     }
 }
 
-fn lock(buffer: &Mutex<TransformBuffer>) -> MutexGuard<'_, TransformBuffer> {
-    buffer.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock(frames: &Mutex<Frames>) -> MutexGuard<'_, Frames> {
+    frames.lock().unwrap_or_else(PoisonError::into_inner)
 }

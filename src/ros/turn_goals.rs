@@ -52,7 +52,7 @@ impl TurnGoals {
             };
         }
         match state {
-            NavigationState::Unavailable(why) => self.lose(why),
+            NavigationState::Unavailable(why) if move_base.is_lost() => self.lose(why),
             other => other,
         }
     }

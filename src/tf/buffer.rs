@@ -59,6 +59,17 @@ pub struct Stamped {
     pub transform: Isometry3<f64>,
 }
 
+/// A link of a chain between two frames whose transform changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MovingLink<'a> {
+    /// The upper frame.
+    pub parent: &'a str,
+    /// The frame that moves in it.
+    pub child: &'a str,
+    /// The newest stamp, seconds.
+    pub newest_s: f64,
+}
+
 /// What `/tf` and `/tf_static` have said over the last seconds.
 #[derive(Clone, Debug)]
 pub struct TransformBuffer {
@@ -106,6 +117,24 @@ impl TransformBuffer {
     /// fixed stays, as it is told only once.
     pub fn clear_moving(&mut self) {
         self.links.retain(|_, link| link.is_static);
+    }
+
+    /// Forgets what was said of a moving frame for times after this one, seconds.
+    pub fn forget_after(&mut self, child: &str, stamp_s: f64) {
+        if let Some(link) = self.links.get_mut(frame_name(child)).filter(|link| !link.is_static) {
+            link.forget_after(stamp_s);
+        }
+    }
+
+    /// The links between two frames whose transforms change, with their newest stamps.
+    ///
+    /// # Errors
+    /// [`TransformError`] with the frames that are missing.
+    pub fn moving_links(&self, target: &str, source: &str) -> Result<Vec<MovingLink<'_>>, TransformError> {
+        let (up_target, up_source) = self.chains(frame_name(target), frame_name(source))?;
+        let moving = up_target.into_iter().chain(up_source).filter(|(_, link)| !link.is_static);
+        let newest = |link: &Link| link.newest_s().unwrap_or(f64::NEG_INFINITY);
+        Ok(moving.map(|(child, link)| MovingLink { parent: &link.parent, child, newest_s: newest(link) }).collect())
     }
 
     /// Where `source` is in `target`, at the newest time that all links between them

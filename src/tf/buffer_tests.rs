@@ -112,3 +112,18 @@ fn a_jump_back_forgets_what_moves_alone() {
     buffer.insert(&sample("map", "odom", 1.0, 0.0, 0.0), false).unwrap();
     assert_eq!(buffer.latest("map", "laser").unwrap().stamp_s, 1.0);
 }
+
+#[test]
+fn what_lies_ahead_can_be_forgotten_and_moving_links_are_named() {
+    let mut buffer = robot();
+    let links = |buffer: &TransformBuffer| {
+        let links = buffer.moving_links("map", "laser").unwrap();
+        links.iter().map(|link| (link.parent.to_owned(), link.child.to_owned(), link.newest_s)).collect::<Vec<_>>()
+    };
+    let link = |parent: &str, child: &str, newest_s| (parent.to_owned(), child.to_owned(), newest_s);
+    assert_eq!(links(&buffer), [link("odom", "base_link", 100.4), link("map", "odom", 100.3)]);
+    buffer.forget_after("/base_link", 100.25);
+    buffer.forget_after("laser", -1.0);
+    assert_eq!(links(&buffer), [link("odom", "base_link", 100.2), link("map", "odom", 100.3)]);
+    assert_eq!(buffer.latest("map", "laser").unwrap().stamp_s, 100.2);
+}

@@ -124,6 +124,13 @@ impl Link {
         }
     }
 
+    /// Drops the samples after a time.
+    pub fn forget_after(&mut self, stamp_s: f64) {
+        while self.samples.back().is_some_and(|(s, _)| *s > stamp_s) {
+            self.samples.pop_back();
+        }
+    }
+
     /// The newest stamp, seconds; of a static one, that at which it was told.
     pub fn newest_s(&self) -> Option<f64> {
         self.samples.back().map(|(stamp_s, _)| *stamp_s)

@@ -4,7 +4,7 @@
 mod buffer;
 mod link;
 
-pub use buffer::{Stamped, TransformBuffer, TransformError};
+pub use buffer::{MovingLink, Stamped, TransformBuffer, TransformError};
 pub use link::{RejectedTransform, TransformSample};
 
 use crate::geometry::Pose;

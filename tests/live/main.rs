@@ -3,7 +3,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
+mod fake_publisher;
+mod peers;
+mod relay;
 mod rig;
+mod senses;
 
 use frontier_explorer::geometry::{Footprint, Pose};
 use frontier_explorer::io::load_map;
@@ -52,8 +56,11 @@ const TESTS: &[Test] = &[
 
 fn main() {
     if let Ok(name) = std::env::var(CHILD) {
-        let (_, test) = TESTS.iter().find(|(known, _)| *known == name).expect("a test of this file");
         let port: u16 = std::env::var("FRONTIER_LIVE_PORT").unwrap().parse().unwrap();
+        if name == peers::MASTER {
+            return peers::serve_master(port);
+        }
+        let (_, test) = all().find(|(known, _)| *known == name).expect("a test of this program");
         let folder = tempfile::tempdir().unwrap();
         start_embedded_master(port).unwrap();
         test(&World::new(folder.path()));
@@ -62,8 +69,12 @@ fn main() {
     let mut arguments = Arguments::from_args();
     // Each test drives a simulator faster than real time.
     arguments.test_threads.get_or_insert(2);
-    let trials = TESTS.iter().map(|(name, _)| Trial::test(*name, move || in_own_process(name))).collect();
+    let trials = all().map(|(name, _)| Trial::test(*name, move || in_own_process(name))).collect();
     libtest_mimic::run(&arguments, trials).exit();
+}
+
+fn all() -> impl Iterator<Item = &'static Test> {
+    TESTS.iter().chain(senses::TESTS).chain(peers::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {

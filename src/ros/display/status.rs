@@ -1,6 +1,7 @@
 //! How the exploration is doing, as a message of our own and for `/diagnostics`.
 
 use super::super::convert::header;
+use super::super::log::Level;
 use super::super::msg::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use super::super::msg::frontier_explorer::ExplorationStatus;
 use super::super::msg::geometry_msgs::{Point32, Polygon as PolygonMessage, PolygonStamped};
@@ -64,9 +65,9 @@ pub fn status(input: &StatusInput<'_>) -> ExplorationStatus {
     }
 }
 
-/// The same for rqt_robot_monitor and its kind.
+/// The same for rqt_robot_monitor and its kind, with the gravest trouble that there is.
 #[must_use]
-pub fn diagnostics(node: &str, status: &ExplorationStatus) -> DiagnosticArray {
+pub fn diagnostics(node: &str, status: &ExplorationStatus, trouble: Option<Level>) -> DiagnosticArray {
     let waits = [
         ExplorationStatus::WAITING_FOR_MAP,
         ExplorationStatus::WAITING_FOR_POSE,
@@ -79,9 +80,11 @@ pub fn diagnostics(node: &str, status: &ExplorationStatus) -> DiagnosticArray {
         EndReason::OutsideRegion.name(),
         EndReason::Interrupted.name(),
     ];
-    let level = match status.phase {
+    let level = match (status.phase, trouble) {
+        (_, Some(Level::Error)) => DiagnosticStatus::ERROR,
         _ if !well.contains(&status.end_reason.as_str()) => DiagnosticStatus::ERROR,
-        phase if waits.contains(&phase) => DiagnosticStatus::WARN,
+        (_, Some(Level::Warn)) => DiagnosticStatus::WARN,
+        (phase, _) if waits.contains(&phase) => DiagnosticStatus::WARN,
         _ => DiagnosticStatus::OK,
     };
     let value = |key: &str, value: String| KeyValue { key: key.to_owned(), value };

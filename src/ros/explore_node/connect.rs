@@ -13,6 +13,7 @@ use crate::ros::pilot::{Pilot, PilotConfig};
 use crate::ros::robot::{Connections, RosRobot, RosRobotConfig};
 use crate::ros::scan_feed::ScanFeed;
 use crate::ros::transforms::Transforms;
+use crate::ros::troubles::Troubles;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
@@ -28,6 +29,10 @@ pub struct Connected {
     pub bell: Arc<Bell>,
     /// Whether no move_base is asked to drive.
     pub drives_itself: bool,
+    /// What is wrong now.
+    pub troubles: Troubles,
+    /// Cancels the goal under way, for the end of a node that hangs.
+    pub cancel: Box<dyn FnOnce() + Send>,
 }
 
 /// Connects to the robot that the settings describe.
@@ -55,13 +60,16 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
         body,
         drives_to_goals: drives_itself,
     };
-    let pilot = Pilot::start(node, pilot_config, navigator, Arc::clone(&transforms), scans.clone())?;
+    let troubles = Troubles::new(node.log());
+    let pilot = Pilot::start(node, pilot_config, navigator, Arc::clone(&transforms), scans.clone(), &troubles)?;
     let connected = Connected {
         maps: map.reader(),
         map_frame: Arc::default(),
         paused: Arc::default(),
         bell: Arc::clone(&bell),
         drives_itself,
+        troubles: troubles.clone(),
+        cancel: canceller(move_base.as_ref()),
     };
     let config = RosRobotConfig {
         base_frame: params.base_frame.clone(),
@@ -79,6 +87,14 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
         bell,
         map_frame: Arc::clone(&connected.map_frame),
         paused: Arc::clone(&connected.paused),
+        troubles,
     };
     Ok((RosRobot::new(node, config, parts), connected))
+}
+
+fn canceller(move_base: Option<&MoveBase>) -> Box<dyn FnOnce() + Send> {
+    match move_base {
+        Some(server) => Box::new(server.canceller()),
+        None => Box::new(|| ()),
+    }
 }

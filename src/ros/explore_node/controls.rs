@@ -2,7 +2,8 @@
 //! stop.
 
 use super::connect::Connected;
-use super::{ExploreNodeError, Settings, save_as};
+use super::saving::save_as;
+use super::{ExploreNodeError, Settings};
 use crate::geometry::{Point, Polygon};
 use crate::planning::GlobalPlanner;
 use crate::ros::feed::Feed;
@@ -17,8 +18,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Points and commands come seldom: a lost connection is found after this time.
-const SILENCE: Duration = Duration::from_secs(120);
+/// Points and commands come seldom: so often it is looked whether all who tell them are met.
+const LOOK: Duration = Duration::from_secs(60);
 
 /// What a user asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,7 +121,7 @@ fn push(requests: &Mutex<Vec<Request>>, request: Request) {
 fn listen_to_resume(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
     let (requests, paused, bell) = (Arc::clone(requests), Arc::clone(&connected.paused), Arc::clone(&connected.bell));
     let log = node.log().clone();
-    node.listen("explore/resume", 5, SILENCE, move |message: Bool, _| {
+    node.listen_seldom("explore/resume", 5, LOOK, move |message: Bool, _| {
         let was_paused = paused.swap(!message.data, Ordering::Relaxed);
         match (was_paused, message.data) {
             (true, true) => log.info("going on"),
@@ -135,7 +136,7 @@ fn listen_to_resume(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected:
 fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
     let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
     let drawing = Mutex::new(RegionDrawing::default());
-    node.listen("clicked_point", 10, SILENCE, move |message: PointStamped, _| {
+    node.listen_seldom("clicked_point", 10, LOOK, move |message: PointStamped, _| {
         if !is_in_frame(&frame, &message.header.frame_id) {
             log.warn(format_args!("a clicked point in the frame {}: must be in the map's", message.header.frame_id));
             return;
@@ -155,7 +156,7 @@ fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected:
 
 fn listen_to_regions(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
     let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
-    node.listen("~set_region", 5, SILENCE, move |message: PolygonStamped, _| {
+    node.listen_seldom("~set_region", 5, LOOK, move |message: PolygonStamped, _| {
         if !is_in_frame(&frame, &message.header.frame_id) {
             log.warn(format_args!("a region in the frame {}: must be in the map's", message.header.frame_id));
             return;

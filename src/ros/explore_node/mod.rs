@@ -3,20 +3,23 @@
 mod connect;
 mod controls;
 mod outputs;
+mod saving;
 mod watcher;
 
 use super::display::status_sentence;
 use super::node::{Node, NodeError};
 use super::program::run_program;
 use super::robot::RosRobot;
+use super::stop;
 use crate::config::{NodeParams, NodeParamsError, Preset, RobotConfig};
 use crate::explore::{End, Explorer, SettingsError, run as explore};
 use crate::geometry::Polygon;
-use crate::io::{MapError, SaveOptions, SettingsFileError, load_preset, load_robot, save_map};
+use crate::io::{SettingsFileError, load_preset, load_robot};
 use connect::connect;
 use controls::{Controls, Request};
 use outputs::Outputs;
-use std::path::Path;
+use saving::MapSaver;
+use std::sync::Arc;
 use std::time::Duration;
 use watcher::NodeWatcher;
 
@@ -50,11 +53,12 @@ pub(super) struct Settings {
 }
 
 /// Runs the node until it is told to stop, or, with `~exit_when_done`, until the
-/// exploration has ended. Returns the exit code: 0 done, 1 failed, 3 ended without
-/// having explored everything.
+/// exploration has ended. Returns the exit code: 0 done, 1 failed or the map was not saved,
+/// 3 ended without having explored everything.
 #[must_use]
 pub fn explore_node() -> u8 {
-    run_program("explore", explore_with)
+    // What is registered is given back after that, which a master that hangs may keep for ever.
+    run_program("explore", |node| explore_until(node, stop::leave_in_time))
 }
 
 fn read_settings(node: &Node) -> Result<Settings, ExploreNodeError> {
@@ -77,11 +81,23 @@ fn read_settings(node: &Node) -> Result<Settings, ExploreNodeError> {
 /// # Errors
 /// [`ExploreNodeError`] when its parameters or ROS do not let it.
 pub fn explore_with(node: &Node) -> Result<u8, ExploreNodeError> {
+    explore_until(node, stop::settle)
+}
+
+/// Explores, and tells the exit code when all is done but to give back what is registered.
+fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeError> {
     let settings = read_settings(node)?;
-    let (mut robot, connected) = connect(node, &settings)?;
-    let outputs = Outputs::offer(node, &settings, connected.maps.clone(), &connected.paused)?;
-    let controls = Controls::listen(node, &settings, &connected)?;
+    let (mut robot, mut connected) = connect(node, &settings)?;
     let Settings { params, preset, .. } = &settings;
+    let saver = Arc::new(MapSaver::new(&params.map_file, connected.maps.clone(), node.log(), &connected.troubles));
+    saver.check();
+    let outputs = Outputs::offer(node, &settings, &connected, &saver)?;
+    let controls = Controls::listen(node, &settings, &connected)?;
+    let (cancel, last_saver) = (std::mem::replace(&mut connected.cancel, Box::new(|| ())), Arc::clone(&saver));
+    stop::set_will(move || {
+        cancel();
+        u8::from(!last_saver.save())
+    });
     node.log().info(format_args!(
         "{}: preset {}, robot {}, map on {}, goals to {}",
         node.name(),
@@ -94,21 +110,27 @@ pub fn explore_with(node: &Node) -> Result<u8, ExploreNodeError> {
     loop {
         let (end, last_region) = run_once(node, &settings, &mut robot, &outputs, &controls, region)?;
         region = last_region;
-        let code = u8::from(!end.reason.is_success()) * 3;
-        let told_to_stop = !node.is_ok();
-        if node.has_failed() {
-            return Ok(1);
+        let is_saved = saver.save();
+        if !is_saved {
+            outputs.tell_status();
         }
-        if told_to_stop {
-            return Ok(0);
-        }
-        if params.exit_when_done {
+        let code = match () {
+            () if node.has_failed() || !is_saved => 1,
+            () if !node.is_ok() || end.reason.is_success() => 0,
+            () => 3,
+        };
+        if params.exit_when_done || !node.is_ok() {
+            settle(code);
             return Ok(code);
         }
         match controls.wait_for_another_run(node) {
             Some(Request::Region(new)) => region = new,
             Some(Request::Resume) => {}
-            None => return Ok(0),
+            None => {
+                let code = u8::from(!saver.save() || node.has_failed());
+                settle(code);
+                return Ok(code);
+            }
         }
     }
 }
@@ -122,7 +144,7 @@ fn run_once(
     controls: &Controls,
     region: Option<Polygon>,
 ) -> Result<(End, Option<Polygon>), ExploreNodeError> {
-    let Settings { params, preset, robot: body } = settings;
+    let Settings { preset, robot: body, .. } = settings;
     let mut explorer = Explorer::new(preset.explorer.clone(), &body.traits())?;
     explorer.set_region(region);
     if let Some(planner) = controls.asking_planner(node, settings) {
@@ -131,10 +153,9 @@ fn run_once(
     let mut watcher = NodeWatcher::new(node, outputs, controls);
     let end = explore(robot, &mut explorer, &mut watcher);
     robot.stop();
-    let status = watcher.finish(&explorer, &end);
+    let status = watcher.finish(robot, &explorer, &end);
     node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
     tell_latency(node, robot.latencies_ms());
-    save(node, robot, &params.map_file);
     Ok((end, explorer.region().cloned()))
 }
 
@@ -150,21 +171,6 @@ fn tell_latency(node: &Node, latencies_ms: &[f64]) {
     }
 }
 
-/// Saves the map where the parameters want it; what cannot be saved is said.
-fn save(node: &Node, robot: &RosRobot, map_file: &str) {
-    if map_file.is_empty() {
-        return;
-    }
-    let Some(map) = robot.received_map() else {
-        node.log().warn(format_args!("no map has come that could be saved as {map_file}"));
-        return;
-    };
-    match save_as(map_file, map) {
-        Ok(paths) => node.log().info(format_args!("saved {} and {}", paths.yaml.display(), paths.image.display())),
-        Err(error) => node.log().error(error),
-    }
-}
-
 /// Waits for one map of a topic and returns it: `frontier map save`.
 ///
 /// # Errors
@@ -175,12 +181,4 @@ pub fn receive_map(node: &Node, topic: &str, limit: Duration) -> Result<super::R
     let reader = feed.reader();
     node.wait_until(limit, || reader.newest().is_some());
     reader.newest().ok_or_else(|| format!("no map came on {topic} for {} s", limit.as_secs()))
-}
-
-/// Saves a map in map_server's format, as the node and the command line do.
-///
-/// # Errors
-/// [`MapError`] with the file.
-pub(super) fn save_as(path: &str, map: &super::ReceivedMap) -> Result<crate::io::SavedPaths, MapError> {
-    save_map(Path::new(path), &map.grid, &SaveOptions::default())
 }

@@ -1,5 +1,7 @@
 //! The topics that the node offers, and the thread that keeps its status fresh.
 
+use super::connect::Connected;
+use super::saving::MapSaver;
 use super::{ExploreNodeError, Settings};
 use crate::explore::{Counts, DecisionRecord, Explorer, Phase};
 use crate::geometry::Path;
@@ -7,6 +9,7 @@ use crate::ros::convert;
 use crate::ros::display::{
     FrontierMarkers, StatusInput, diagnostics, frontier_array, region_message, status, status_sentence,
 };
+use crate::ros::log::Level;
 use crate::ros::map_feed::MapReader;
 use crate::ros::msg::diagnostic_msgs::DiagnosticArray;
 use crate::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
@@ -14,6 +17,7 @@ use crate::ros::msg::geometry_msgs::{PolygonStamped, PoseStamped};
 use crate::ros::msg::nav_msgs;
 use crate::ros::msg::visualization_msgs::MarkerArray;
 use crate::ros::node::Node;
+use crate::ros::troubles::Troubles;
 use rosrust::Publisher;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -35,7 +39,7 @@ pub struct Outputs {
     path: Publisher<nav_msgs::Path>,
     region: Publisher<PolygonStamped>,
     status: Arc<Mutex<ExplorationStatus>>,
-    now: Publisher<ExplorationStatus>,
+    teller: Arc<Teller>,
     markers: Mutex<FrontierMarkers>,
 }
 
@@ -47,8 +51,8 @@ impl Outputs {
     pub fn offer(
         node: &Node,
         settings: &Settings,
-        maps: MapReader,
-        paused: &Arc<AtomicBool>,
+        connected: &Connected,
+        saver: &Arc<MapSaver>,
     ) -> Result<Self, ExploreNodeError> {
         let preset = settings.preset.preset.clone();
         let first = StatusInput {
@@ -68,10 +72,17 @@ impl Outputs {
             map_age_s: f64::NAN,
         };
         let shared = Arc::new(Mutex::new(status(&first)));
-        let now = node.publish_latched("~status")?;
-        let health = node.publish("/diagnostics", 5)?;
-        let (theirs, told, owner, rests) = (Arc::clone(&shared), now.clone(), node.clone(), Arc::clone(paused));
-        std::thread::spawn(move || tell(&owner, &theirs, &told, &health, &maps, &rests));
+        let teller = Arc::new(Teller {
+            node: node.clone(),
+            status: Arc::clone(&shared),
+            now: node.publish_latched("~status")?,
+            health: node.publish("/diagnostics", 5)?,
+            maps: connected.maps.clone(),
+            paused: Arc::clone(&connected.paused),
+            troubles: connected.troubles.clone(),
+        });
+        let (theirs, saver) = (Arc::clone(&teller), Arc::clone(saver));
+        std::thread::spawn(move || tell(&theirs, &saver));
         Ok(Self {
             frontiers: if settings.params.visualize { Some(node.publish_latched("~frontiers")?) } else { None },
             array: node.publish_latched("~frontier_array")?,
@@ -81,7 +92,7 @@ impl Outputs {
             node: node.clone(),
             preset,
             status: shared,
-            now,
+            teller,
             markers: Mutex::default(),
         })
     }
@@ -120,19 +131,46 @@ impl Outputs {
 
     /// Tells the status at once.
     pub fn tell_status(&self) {
-        let _ = self.now.send(self.status.lock().unwrap_or_else(PoisonError::into_inner).clone());
+        self.teller.tell();
+    }
+}
+
+/// Tells how the exploration is doing.
+struct Teller {
+    node: Node,
+    status: Arc<Mutex<ExplorationStatus>>,
+    now: Publisher<ExplorationStatus>,
+    health: Publisher<DiagnosticArray>,
+    maps: MapReader,
+    paused: Arc<AtomicBool>,
+    troubles: Troubles,
+}
+
+impl Teller {
+    /// Tells the status with what is wrong now, and returns it.
+    fn tell(&self) -> ExplorationStatus {
+        let mut fresh = self.status.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let ended = fresh.phase == ExplorationStatus::ENDED;
+        fresh.header.stamp = self.node.stamp();
+        fresh.map_age_s = self.maps.newest().map_or(f64::NAN, |map| map.arrived.elapsed().as_secs_f64());
+        // After the end nothing is waited for any more.
+        let worst = self.troubles.worst().filter(|(level, _)| !ended || *level == Level::Error);
+        if let Some((_, text)) = &worst {
+            fresh.message = if ended { format!("{}; {text}", fresh.message) } else { text.clone() };
+        }
+        if self.paused.load(Ordering::Relaxed) && !ended {
+            fresh.phase = ExplorationStatus::PAUSED;
+            "resting: publish true on explore/resume to go on".clone_into(&mut fresh.message);
+        }
+        let _ = self.health.send(diagnostics(self.node.name(), &fresh, worst.map(|(level, _)| level)));
+        let _ = self.now.send(fresh.clone());
+        fresh
     }
 }
 
 /// Tells the status once a second, also while the exploration waits or rests.
-fn tell(
-    node: &Node,
-    status: &Mutex<ExplorationStatus>,
-    now: &Publisher<ExplorationStatus>,
-    health: &Publisher<DiagnosticArray>,
-    maps: &MapReader,
-    paused: &AtomicBool,
-) {
+fn tell(teller: &Teller, saver: &MapSaver) {
+    let node = &teller.node;
     let (mut next, mut next_line) = (Instant::now(), Instant::now() + LINE_PERIOD);
     while node.is_ok() {
         std::thread::sleep(Duration::from_millis(100));
@@ -140,19 +178,15 @@ fn tell(
             continue;
         }
         next = Instant::now() + STATUS_PERIOD;
-        let mut fresh = status.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        let ended = fresh.phase == ExplorationStatus::ENDED;
-        fresh.header.stamp = node.stamp();
-        fresh.map_age_s = maps.newest().map_or(f64::NAN, |map| map.arrived.elapsed().as_secs_f64());
-        if paused.load(Ordering::Relaxed) && !ended {
-            fresh.phase = ExplorationStatus::PAUSED;
-            "resting: publish true on explore/resume to go on".clone_into(&mut fresh.message);
+        let status = teller.tell();
+        if status.phase == ExplorationStatus::ENDED {
+            continue;
         }
-        let _ = health.send(diagnostics(node.name(), &fresh));
-        if Instant::now() >= next_line && !ended {
+        teller.troubles.repeat();
+        if Instant::now() >= next_line {
             next_line = Instant::now() + LINE_PERIOD;
-            node.log().info(status_sentence(&fresh));
+            saver.check_again();
+            node.log().info(status_sentence(&status));
         }
-        let _ = now.send(fresh);
     }
 }

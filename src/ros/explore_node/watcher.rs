@@ -34,6 +34,8 @@ pub struct NodeWatcher<'a> {
     region_shown: bool,
     failed_before: usize,
     last_goal: Option<Pose>,
+    /// Goals that were really sent.
+    goals_sent: usize,
 }
 
 impl<'a> NodeWatcher<'a> {
@@ -56,11 +58,13 @@ impl<'a> NodeWatcher<'a> {
             region_shown: false,
             failed_before: 0,
             last_goal: None,
+            goals_sent: 0,
         }
     }
 
     /// Tells the end, and returns the last status.
-    pub fn finish(&mut self, explorer: &Explorer, end: &End) -> ExplorationStatus {
+    pub fn finish(&mut self, robot: &RosRobot, explorer: &Explorer, end: &End) -> ExplorationStatus {
+        self.goals_sent = robot.goals_sent();
         end.message.clone_into(&mut self.message);
         let last = self.status(Phase::Ended, explorer.counts(), Some(end));
         self.outputs.set_status(last.clone());
@@ -82,7 +86,8 @@ impl<'a> NodeWatcher<'a> {
             known_area_m2: self.known_area_m2,
             free_area_m2: self.free_area_m2,
             frontiers: self.frontiers,
-            counts,
+            // The explorer counts what it chose, also where nobody was there to drive.
+            counts: &Counts { goals_sent: counts.goals_sent.min(self.goals_sent), ..*counts },
             map_age_s: f64::NAN,
         })
     }
@@ -143,6 +148,7 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
     fn after_step(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
         self.count_way(observation);
         self.count_area(robot);
+        self.goals_sent = robot.goals_sent();
         let counts = explorer.counts();
         if counts.goals_failed > self.failed_before {
             let why = match &observation.navigation.state {

@@ -10,6 +10,7 @@ pub use tracker::{GoalStatus, GoalTracker};
 use super::bell::Bell;
 use super::call::call;
 use super::convert;
+use super::directory::list;
 use super::feed::Feed;
 use super::log::Level;
 use super::msg::actionlib_msgs::{GoalID, GoalStatusArray};
@@ -27,8 +28,10 @@ use std::time::Duration;
 const READY_WITHIN_S: f64 = 2.0;
 /// Status comes at 5 Hz or more, so a connection that is silent for longer is broken.
 const SILENCE: Duration = Duration::from_secs(5);
-/// Result and feedback come only now and then.
-const QUIET: Duration = Duration::from_secs(120);
+/// Result and feedback come only now and then: so often it is looked whether the server is met.
+const LOOK: Duration = Duration::from_secs(30);
+/// How old an answer of the master may be when it is asked for action servers.
+const LISTING_AGE: Duration = Duration::from_secs(5);
 /// How long a service of move_base may take.
 const SERVICE_LIMIT: Duration = Duration::from_secs(3);
 
@@ -63,12 +66,12 @@ impl MoveBase {
             lock(&theirs).on_status(goals, owner.wall_s());
         });
         let (theirs, bell) = (Arc::clone(&tracker), Arc::clone(bell));
-        let result = node.listen(&topic("result"), 10, QUIET, move |message: MoveBaseActionResult, _| {
+        let result = node.listen_seldom(&topic("result"), 10, LOOK, move |message: MoveBaseActionResult, _| {
             let status = &message.status;
             lock(&theirs).on_result(&status.goal_id.id, GoalStatus::from_number(status.status), &status.text);
             bell.ring();
         });
-        let feedback = node.listen(&topic("feedback"), 5, QUIET, |_: MoveBaseActionFeedback, _| {});
+        let feedback = node.listen_seldom(&topic("feedback"), 5, LOOK, |_: MoveBaseActionFeedback, _| {});
         Ok(Self {
             goals: node.publish(&topic("goal"), 5)?,
             cancels: node.publish(&topic("cancel"), 5)?,
@@ -88,7 +91,10 @@ impl MoveBase {
     /// What is missing, when the server is not ready: a goal that is sent before it has
     /// connected would be lost.
     pub fn send(&mut self, goal_in_map: &Pose, map_frame: &str) -> Result<(), String> {
-        self.check_ready()?;
+        if let Err(why) = self.check_ready() {
+            lock(&self.tracker).on_unready(&why);
+            return Err(why);
+        }
         self.count += 1;
         let (now_s, stamp) = (self.node.now_s(), self.node.stamp());
         let id = format!("{}-{}-{}.{:09}", self.node.name(), self.count, stamp.sec, stamp.nsec);
@@ -103,10 +109,19 @@ impl MoveBase {
 
     /// Cancels the goal under way, if there is one; goals of others go on.
     pub fn cancel(&mut self) {
-        if let Some(id) = lock(&self.tracker).forget() {
-            // Stamp 0 with an id means this goal alone.
-            let _ = self.cancels.send(GoalID { stamp: rosrust::Time::new(), id });
-        }
+        cancel(&self.tracker, &self.cancels);
+    }
+
+    /// The same from another thread, which asks no master.
+    pub fn canceller(&self) -> impl FnOnce() + Send + 'static {
+        let (tracker, cancels) = (Arc::clone(&self.tracker), self.cancels.clone());
+        move || cancel(&tracker, &cancels)
+    }
+
+    /// Whether the goal was lost, so that it can be sent again.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        lock(&self.tracker).is_lost(self.node.wall_s())
     }
 
     /// How the goal is doing.
@@ -124,6 +139,25 @@ impl MoveBase {
                 node.log().once(Level::Warn, error);
             }
         });
+    }
+
+    /// Why no goal can be sent now, with the servers that there are instead.
+    #[must_use]
+    pub fn trouble(&self) -> Option<String> {
+        let why = self.check_ready().err()?;
+        let Some(listing) = self.node.listing(LISTING_AGE) else { return Some(why) };
+        // A server hears its goals.
+        let servers: BTreeSet<String> = listing
+            .heard("move_base_msgs/MoveBaseActionGoal")
+            .filter_map(|(topic, _)| topic.strip_suffix("/goal"))
+            .map(ToOwned::to_owned)
+            .collect();
+        let wanted = self.node.full_name(&self.server);
+        Some(if servers.contains(&wanted) {
+            format!("{why}, though {wanted} hears goals")
+        } else {
+            format!("{why}; action servers that drive: {}", list(&servers))
+        })
     }
 
     /// Whether the server has connected both ways: one and the same node tells status,
@@ -144,6 +178,13 @@ impl MoveBase {
         } else {
             Err(format!("the action server {} has not connected to all topics yet", self.server))
         }
+    }
+}
+
+fn cancel(tracker: &Mutex<GoalTracker>, cancels: &Publisher<GoalID>) {
+    if let Some(id) = lock(tracker).forget() {
+        // Stamp 0 with an id means this goal alone.
+        let _ = cancels.send(GoalID { stamp: rosrust::Time::new(), id });
     }
 }
 

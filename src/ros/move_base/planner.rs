@@ -35,6 +35,10 @@ impl AskingPlanner {
     }
 
     fn ask(&self, start: &Pose, goal: &Pose) -> Option<Path> {
+        // A node that was told to stop has no time for this.
+        if !self.node.is_ok() {
+            return None;
+        }
         let frame = self.frame.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let now_s = self.node.now_s();
         let request = GetPlanReq {

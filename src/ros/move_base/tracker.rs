@@ -3,7 +3,8 @@
 //!
 //! Status and result come on topics of their own, so in either order: the result
 //! decides, and a final status decides where no result follows. A goal is lost when the
-//! server never lists it, lists it no more, or falls silent.
+//! server never lists it, lists it no more, or falls silent. After a loss the server is in
+//! doubt until it has taken a goal up: one that ignores goals is as good as none.
 
 use crate::robot::NavigationState;
 
@@ -66,6 +67,8 @@ struct Goal {
 pub struct GoalTracker {
     goal: Option<Goal>,
     last_status_s: Option<f64>,
+    /// Why the last goal was lost, until the server takes one up.
+    doubt: Option<String>,
 }
 
 impl GoalTracker {
@@ -87,6 +90,7 @@ impl GoalTracker {
         for (id, status, text) in goals {
             if id == goal.id {
                 goal.listed_s = Some(now_s);
+                self.doubt = None;
                 if status.is_final() && goal.closed.is_none() {
                     goal.closed = Some((status, text.to_owned(), now_s));
                 }
@@ -101,7 +105,20 @@ impl GoalTracker {
             && status.is_final()
         {
             goal.outcome = Some(outcome(status, text));
+            self.doubt = None;
         }
+    }
+
+    /// No goal could be sent, for this reason.
+    pub fn on_unready(&mut self, why: &str) {
+        self.doubt = Some(why.to_owned());
+    }
+
+    /// Whether the goal was lost, so that it can be sent again.
+    pub fn is_lost(&mut self, now_s: f64) -> bool {
+        self.update(now_s);
+        let outcome = self.goal.as_ref().and_then(|goal| goal.outcome.as_ref());
+        matches!(outcome, Some(NavigationState::Unavailable(_)))
     }
 
     /// Seconds since the last status.
@@ -110,13 +127,25 @@ impl GoalTracker {
         self.last_status_s.map(|last_s| now_s - last_s)
     }
 
-    /// How the goal is doing now.
+    /// How the goal is doing now. One that was sent after a loss is not under way before
+    /// the server has taken it up.
     pub fn state(&mut self, now_s: f64) -> NavigationState {
-        let Some(goal) = &mut self.goal else { return NavigationState::Idle };
-        if goal.outcome.is_none() {
-            goal.outcome = overdue(goal, self.last_status_s, now_s);
+        self.update(now_s);
+        match (&self.goal, &self.doubt) {
+            (None, _) => NavigationState::Idle,
+            (Some(Goal { outcome: Some(outcome), .. }), _) => outcome.clone(),
+            (Some(_), Some(why)) => NavigationState::Unavailable(why.clone()),
+            (Some(_), None) => NavigationState::Active,
         }
-        goal.outcome.clone().unwrap_or(NavigationState::Active)
+    }
+
+    /// Looks whether the result is overdue.
+    fn update(&mut self, now_s: f64) {
+        let Some(goal) = self.goal.as_mut().filter(|goal| goal.outcome.is_none()) else { return };
+        goal.outcome = overdue(goal, self.last_status_s, now_s);
+        if let Some(NavigationState::Unavailable(why)) = &goal.outcome {
+            self.doubt = Some(why.clone());
+        }
     }
 }
 
@@ -222,6 +251,29 @@ mod tests {
         assert_eq!(dropped.state(10.7), Active);
         dropped.on_status([], 11.6);
         assert_eq!(dropped.state(11.6), lost("move_base does not know the goal any more".to_owned()));
+    }
+
+    #[test]
+    fn a_server_that_ignores_goals_stays_unavailable_until_it_takes_one_up() {
+        let ignored = lost("move_base never took the goal up".to_owned());
+        let mut tracker = tracker();
+        tracker.on_status([], 13.5);
+        assert!(tracker.is_lost(13.5));
+        for i in 0..20 {
+            let sent_s = 14.0 + 4.0 * f64::from(i);
+            tracker.begin("ours".to_owned(), sent_s);
+            for after_s in [0.1, 1.5, 3.5] {
+                tracker.on_status([], sent_s + after_s);
+                assert_eq!(tracker.state(sent_s + after_s), ignored, "{sent_s} + {after_s}");
+                assert_eq!(tracker.is_lost(sent_s + after_s), after_s > 3.0, "a goal has its time");
+            }
+        }
+        tracker.begin("ours".to_owned(), 100.0);
+        assert_eq!(tracker.state(100.1), ignored);
+        listed(&mut tracker, GoalStatus::Pending, 100.2);
+        assert_eq!(tracker.state(100.3), Active);
+        tracker.on_unready("no server");
+        assert_eq!(tracker.state(100.4), lost("no server".to_owned()));
     }
 
     #[test]

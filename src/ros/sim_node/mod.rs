@@ -35,7 +35,8 @@ const CLOCK_PERIOD_S: f64 = 0.01;
 const TF_PERIOD_S: f64 = 0.02;
 /// The simulator never runs after more lost time than this, seconds of real time.
 const LONGEST_LAG_S: f64 = 0.25;
-const SILENCE: Duration = Duration::from_secs(120);
+/// Commands and faults may be silent: so often it is looked whether all who send them are met.
+const LOOK: Duration = Duration::from_secs(60);
 
 /// Why the simulator cannot run.
 #[derive(Debug, thiserror::Error)]
@@ -272,7 +273,7 @@ impl Simulator {
 
 fn listen_to_commands(node: &Node, received: &Arc<Mutex<Received>>) -> Feed {
     let (received, own) = (Arc::clone(received), node.name().to_owned());
-    node.listen("cmd_vel", 5, SILENCE, move |message: TwistMessage, caller| {
+    node.listen_seldom("cmd_vel", 5, LOOK, move |message: TwistMessage, caller| {
         // What we tell onlookers comes back to us.
         if caller != own {
             let mut received = received.lock().unwrap_or_else(PoisonError::into_inner);
@@ -283,7 +284,7 @@ fn listen_to_commands(node: &Node, received: &Arc<Mutex<Received>>) -> Feed {
 
 fn listen_to_faults(node: &Node, fault: &Arc<Mutex<Fault>>) -> Feed {
     let (fault, log) = (Arc::clone(fault), node.log().clone());
-    node.listen("~fault", 5, SILENCE, move |message: StringMessage, _| match Fault::from_name(&message.data) {
+    node.listen_seldom("~fault", 5, LOOK, move |message: StringMessage, _| match Fault::from_name(&message.data) {
         Some(new) => {
             log.warn(format_args!("fault: {}", message.data));
             *fault.lock().unwrap_or_else(PoisonError::into_inner) = new;

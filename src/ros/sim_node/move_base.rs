@@ -29,8 +29,8 @@ use std::time::{Duration, Instant};
 const STATUS_PERIOD: Duration = Duration::from_millis(200);
 /// From one feedback to the next, real time.
 const FEEDBACK_PERIOD: Duration = Duration::from_millis(100);
-/// Goals come seldom.
-const SILENCE: Duration = Duration::from_secs(120);
+/// Goals come seldom: so often it is looked whether all who send them are met.
+const LOOK: Duration = Duration::from_secs(30);
 /// The frame of goals and plans.
 const MAP: &str = "map";
 
@@ -236,16 +236,16 @@ fn listen(node: &Node, orders: &Arc<Mutex<Vec<Order>>>) -> Vec<Feed> {
     let count = Mutex::new(0_u64);
     let owner = node.clone();
     vec![
-        node.listen("move_base/goal", 10, SILENCE, move |message: MoveBaseActionGoal, _| {
+        node.listen_seldom("move_base/goal", 10, LOOK, move |message: MoveBaseActionGoal, _| {
             push(&goals, Order::Goal(message.goal_id, convert::pose(&message.goal.target_pose.pose)));
         }),
-        node.listen("move_base_simple/goal", 10, SILENCE, move |message: PoseStamped, _| {
+        node.listen_seldom("move_base_simple/goal", 10, LOOK, move |message: PoseStamped, _| {
             let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
             *count += 1;
             let id = GoalID { stamp: owner.stamp(), id: format!("{}-simple-{count}", owner.name()) };
             push(&simple, Order::Goal(id, convert::pose(&message.pose)));
         }),
-        node.listen("move_base/cancel", 10, SILENCE, move |message: GoalID, _| {
+        node.listen_seldom("move_base/cancel", 10, LOOK, move |message: GoalID, _| {
             push(&cancels, Order::Cancel(message));
         }),
     ]

@@ -1,0 +1,245 @@
+//! Where the robot is, from transforms that may be old, stamped ahead, late, or come no
+//! more. Pure; times are seconds of ROS time.
+//!
+//! A stamp alone does not say how fresh a transform is: gmapping and Cartographer stamp
+//! `map -> odom` some tenths of a second ahead, a computer with a wrong clock any time, and
+//! after a jump back of `/clock` messages from before it may still come. So each link is
+//! judged by its stamp in both directions and by when it came.
+
+use crate::geometry::Pose;
+use crate::robot::PoseError;
+use crate::tf::{
+    MovingLink, RejectedTransform, TransformBuffer, TransformError, TransformSample, frame_name, is_upside_down, planar,
+};
+use std::collections::BTreeMap;
+
+/// How far back transforms are remembered, seconds, as in tf2.
+const HISTORY_S: f64 = 10.0;
+/// A stamp this far before the last one is a jump back in time, seconds.
+const JUMP_S: f64 = 3.0;
+/// How far ahead of ROS time a stamp may be, beside the tolerance, seconds: what a SLAM
+/// adds on purpose, and a `/clock` that comes later than `/tf`.
+const AHEAD_S: f64 = 1.0;
+/// A transform that is stamped further ahead than this, seconds, while good ones of the same
+/// frame came in the last [`GOOD_FOR_S`], is late from before a jump back of time.
+const LATE_AHEAD_S: f64 = 2.0 * AHEAD_S;
+/// How long a good transform speaks against one that is stamped far ahead, seconds.
+const GOOD_FOR_S: f64 = 1.0;
+
+/// The last transform of a frame, in seconds of ROS time.
+#[derive(Clone, Copy)]
+struct Told {
+    stamp_s: f64,
+    arrived_s: f64,
+}
+
+/// What is known of the frames, and when it came.
+pub(super) struct Frames {
+    buffer: TransformBuffer,
+    /// What was last told of each moving frame.
+    told: BTreeMap<String, Told>,
+}
+
+impl Frames {
+    /// Nothing yet.
+    pub const fn new() -> Self {
+        Self { buffer: TransformBuffer::new(HISTORY_S), told: BTreeMap::new() }
+    }
+
+    /// Takes a transform in that came at `now_s`, which is 0 while there is no time yet.
+    /// One that is late from before a jump back of time is dropped.
+    ///
+    /// # Errors
+    /// [`RejectedTransform`] for what cannot be a transform.
+    pub fn take(&mut self, sample: &TransformSample, is_static: bool, now_s: f64) -> Result<(), RejectedTransform> {
+        if is_static || now_s <= 0.0 {
+            return self.buffer.insert(sample, is_static);
+        }
+        let (child, stamp_s, latest_s) = (frame_name(&sample.child), sample.stamp_s, now_s + AHEAD_S);
+        let is_good = |told: &Told| told.stamp_s <= latest_s && (now_s - told.arrived_s).abs() <= GOOD_FOR_S;
+        if stamp_s > now_s + LATE_AHEAD_S && self.told.get(child).is_some_and(is_good) {
+            return Ok(());
+        }
+        if stamp_s <= latest_s {
+            // What is stamped later came from before a jump back, or from a wrong clock: it
+            // would hide this transform for as long as its stamp lies ahead.
+            self.buffer.forget_after(child, latest_s);
+        }
+        self.buffer.insert(sample, is_static)?;
+        self.told.insert(child.to_owned(), Told { stamp_s, arrived_s: now_s });
+        Ok(())
+    }
+
+    /// Forgets what moves, when time has jumped back from `last_s` to `now_s`.
+    pub fn notice_time(&mut self, last_s: f64, now_s: f64) {
+        if now_s < last_s - JUMP_S {
+            self.buffer.clear_moving();
+            self.told.clear();
+        }
+    }
+
+    /// Where a robot is in the map frame at `now_s`, by transforms that are at most
+    /// `limit_s` old.
+    ///
+    /// # Errors
+    /// [`PoseError`] when no transform leads there, or one cannot be believed.
+    pub fn robot(&self, map: &str, base: &str, now_s: f64, limit_s: f64) -> Result<Pose, PoseError> {
+        let (map_frame, base_frame) = (frame_name(map).to_owned(), frame_name(base).to_owned());
+        let links = match self.buffer.moving_links(map, base) {
+            Ok(links) => links,
+            Err(error) => {
+                let why = self.what_is_missing(&map_frame, &base_frame, &error);
+                return Err(PoseError::NotYet { map_frame, base_frame, why });
+            }
+        };
+        if let Some(error) = links.iter().find_map(|link| skew(link, now_s, limit_s + AHEAD_S)) {
+            return Err(error);
+        }
+        let oldest_s = links.iter().map(|link| link.newest_s).fold(f64::INFINITY, f64::min);
+        let age_s = now_s - oldest_s;
+        if age_s > limit_s {
+            return Err(PoseError::Stale { map_frame, base_frame, age_s, limit_s });
+        }
+        if let Some(error) = links.iter().find_map(|link| self.silence(link, now_s, limit_s)) {
+            return Err(error);
+        }
+        match self.buffer.latest(map, base) {
+            Ok(newest) => Ok(planar(&newest.transform)),
+            Err(error) => Err(PoseError::NotYet { map_frame, base_frame, why: error.to_string() }),
+        }
+    }
+
+    /// Where a sensor was in another frame at a time, and whether it hung upside down.
+    ///
+    /// # Errors
+    /// [`TransformError`] when no transform leads there.
+    pub fn sensor(&self, target: &str, sensor: &str, stamp_s: f64) -> Result<(Pose, bool), TransformError> {
+        let transform = self.buffer.at(target, sensor, stamp_s)?;
+        Ok((planar(&transform), is_upside_down(&transform)))
+    }
+
+    /// Names every frame that tf does not have, with those that it has.
+    fn what_is_missing(&self, map_frame: &str, base_frame: &str, error: &TransformError) -> String {
+        let known = self.buffer.frames();
+        let missing = |frame: &str| !known.contains(&frame);
+        let has = if known.is_empty() { "no frame yet".to_owned() } else { known.join(", ") };
+        match (missing(map_frame), missing(base_frame)) {
+            (true, true) => format!("neither frame is known: tf has {has}"),
+            (true, false) => format!("the map's frame {map_frame} is unknown: tf has {has}"),
+            (false, true) => format!("the robot's frame {base_frame} (~base_frame) is unknown: tf has {has}"),
+            (false, false) => error.to_string(),
+        }
+    }
+
+    fn silence(&self, link: &MovingLink<'_>, now_s: f64, limit_s: f64) -> Option<PoseError> {
+        let silent_s = now_s - self.told.get(link.child)?.arrived_s;
+        let (parent, child) = (link.parent.to_owned(), link.child.to_owned());
+        (silent_s > limit_s).then_some(PoseError::Silent { parent, child, silent_s, limit_s })
+    }
+}
+
+fn skew(link: &MovingLink<'_>, now_s: f64, limit_s: f64) -> Option<PoseError> {
+    let ahead_s = link.newest_s - now_s;
+    let (parent, child) = (link.parent.to_owned(), link.child.to_owned());
+    (ahead_s > limit_s).then_some(PoseError::Skewed { parent, child, ahead_s, limit_s })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LIMIT_S: f64 = 0.5;
+
+    fn tell(frames: &mut Frames, child: &str, stamp_s: f64, now_s: f64, x_m: f64) {
+        let parent = if child == "odom" { "map" } else { "odom" };
+        let sample = TransformSample::planar(stamp_s, parent, child, &Pose::new(x_m, 0.0, 0.0));
+        frames.take(&sample, false, now_s).unwrap();
+    }
+
+    /// `map -> odom -> base` told ten times a second up to a time, stamped so much ahead.
+    fn told(until_s: f64, odom_ahead_s: f64, base_ahead_s: f64) -> Frames {
+        let mut frames = Frames::new();
+        for i in (0..=20).rev() {
+            let now_s = until_s - 0.1 * f64::from(i);
+            tell(&mut frames, "odom", now_s + odom_ahead_s, now_s, 0.0);
+            tell(&mut frames, "base", now_s + base_ahead_s, now_s, now_s);
+        }
+        frames
+    }
+
+    fn pose(frames: &Frames, now_s: f64) -> Result<f64, String> {
+        frames.robot("map", "base", now_s, LIMIT_S).map(|pose| pose.x).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn stamps_ahead_as_of_gmapping_are_fresh_until_they_come_no_more() {
+        for ahead_s in [0.0, 0.2, 0.25, 0.5, 1.0] {
+            let frames = told(100.0, ahead_s, 0.0);
+            assert!((pose(&frames, 100.1).unwrap() - 100.0).abs() < 1e-9, "{ahead_s}");
+            assert!(pose(&frames, 100.6).is_err(), "{ahead_s}");
+        }
+        let both = told(100.0, 0.9, 0.9);
+        assert!(pose(&both, 100.4).is_ok());
+        assert_eq!(pose(&both, 100.7).unwrap_err(), "odom -> base has not come for 0.7 s: must come every 0.5 s");
+    }
+
+    #[test]
+    fn a_wrong_clock_is_named() {
+        let message = "clock skew: map -> odom is stamped 120.0 s ahead of ROS time: must be at most 1.5 s";
+        assert_eq!(pose(&told(100.0, 120.0, 0.0), 100.0).unwrap_err(), message);
+        assert!(pose(&told(100.0, 120.0, 120.0), 100.0).unwrap_err().contains("odom -> base is stamped 120.0 s"));
+        let behind = pose(&told(100.0, 0.0, -3.0), 100.0).unwrap_err();
+        assert_eq!(behind, "the transform from map to base is 3.0 s old: must be at most 0.5 s");
+    }
+
+    #[test]
+    fn a_late_message_from_before_a_jump_back_freezes_nothing() {
+        let mut frames = told(230.0, 0.0, 0.0);
+        frames.notice_time(230.0, 100.0);
+        assert!(pose(&frames, 100.0).is_err());
+        tell(&mut frames, "odom", 100.1, 100.1, 0.0);
+        tell(&mut frames, "base", 100.1, 100.1, 1.0);
+        // One that was under way when time jumped.
+        tell(&mut frames, "base", 230.0, 100.12, 9.0);
+        assert_eq!(pose(&frames, 100.12), Ok(1.0), "it is dropped");
+        tell(&mut frames, "odom", 100.2, 100.2, 0.0);
+        tell(&mut frames, "base", 100.2, 100.2, 2.0);
+        assert_eq!(pose(&frames, 100.2), Ok(2.0));
+        // Nor does one that comes before the jump was noticed.
+        let mut unnoticed = told(230.0, 0.0, 0.0);
+        tell(&mut unnoticed, "odom", 100.1, 100.1, 0.0);
+        tell(&mut unnoticed, "base", 100.1, 100.1, 3.0);
+        assert_eq!(pose(&unnoticed, 100.1), Ok(3.0));
+        // And one that comes first gives way to the next.
+        let mut first = told(230.0, 0.0, 0.0);
+        first.notice_time(230.0, 100.0);
+        tell(&mut first, "base", 230.0, 100.0, 9.0);
+        tell(&mut first, "odom", 100.1, 100.1, 0.0);
+        assert!(pose(&first, 100.1).unwrap_err().contains("clock skew"));
+        tell(&mut first, "base", 100.1, 100.1, 4.0);
+        assert_eq!(pose(&first, 100.1), Ok(4.0));
+    }
+
+    #[test]
+    fn a_clock_that_goes_wrong_is_named_after_a_second() {
+        let mut frames = told(100.0, 0.0, 0.0);
+        for i in 1..=15 {
+            let now_s = 100.0 + 0.1 * f64::from(i);
+            tell(&mut frames, "odom", now_s + 120.0, now_s, 0.0);
+            tell(&mut frames, "base", now_s, now_s, 0.0);
+        }
+        assert!(pose(&frames, 101.5).unwrap_err().contains("clock skew: map -> odom is stamped 120.0 s ahead"));
+    }
+
+    #[test]
+    fn the_frame_that_is_missing_is_named() {
+        let frames = told(100.0, 0.0, 0.0);
+        let error = frames.robot("map", "base_lnk", 100.0, LIMIT_S).unwrap_err().to_string();
+        let said = "the robot's frame base_lnk (~base_frame) is unknown: tf has base, map, odom";
+        assert_eq!(error, format!("no transform from map to base_lnk yet: {said}"));
+        let error = frames.robot("mapp", "base", 100.0, LIMIT_S).unwrap_err().to_string();
+        assert!(error.contains("the map's frame mapp is unknown"), "{error}");
+        let error = Frames::new().robot("map", "base", 100.0, LIMIT_S).unwrap_err().to_string();
+        assert!(error.contains("neither frame is known: tf has no frame yet"), "{error}");
+    }
+}
