@@ -51,7 +51,7 @@ fn decode_all(bytes: &[u8]) -> Result<(Summary, u64), BagError> {
     let summary = Summary::of(Bytes::new(bytes))?;
     let mut playback = Playback::new(Bytes::new(bytes), &summary)?;
     let (mut last, mut count) = (0, 0);
-    while let Some(PlayedMessage { connection, time, data }) = playback.next_message()? {
+    while let Some(PlayedMessage { connection, time, data, .. }) = playback.next_message()? {
         // In a damaged bag, a connection can be found that a first look did not know.
         let is_whole = summary.problems.is_empty();
         assert!(time >= last || !is_whole, "messages come in the order of time");

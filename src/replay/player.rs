@@ -1,6 +1,8 @@
 //! What is known at a moment of a recording: map, frames, newest scan, goals.
 
 use super::Inputs;
+use super::clock::Clock;
+use super::faults::Faults;
 use super::goals::RecordedGoals;
 use super::scans::{ScanMapping, on_robot};
 use super::told::Told;
@@ -21,8 +23,11 @@ const HISTORY_S: f64 = 10.0;
 const TOLERANCE_S: f64 = 0.5;
 /// From one map that is made of scans to the next, seconds at the least.
 const MAP_PERIOD_S: f64 = 1.0;
-/// Headers of another clock than the recorder's differ by more than this, seconds.
-const CLOCKS_DIFFER_S: f64 = 5.0;
+/// A transform that is stamped this far ahead of the clock, seconds, is taken in only when the
+/// next is too: a single one would hide all that follow.
+const AHEAD_S: f64 = 5.0;
+/// One that was recorded at a time that cannot be must be this near to the clock, seconds.
+const STRAY_S: f64 = 1.0;
 
 /// Is handed every message as it is played.
 pub type Tap = Box<dyn FnMut(&PlayedMessage<'_>)>;
@@ -45,14 +50,16 @@ pub struct Player<R> {
     begin_s: f64,
     inputs: Inputs,
     transforms: TransformBuffer,
-    /// Header time minus recorded time, seconds, where the clocks differ.
-    offset_s: Option<f64>,
+    /// The clock that headers go by.
+    clock: Clock,
+    /// How far ahead the last message of tf was, if it was too far, seconds.
+    ahead_s: Option<f64>,
     map: Option<MapSnapshot>,
     scan: Option<ScanMessage>,
     goals: RecordedGoals,
     /// Makes the map where the recording has none.
     mapping: Option<ScanMapping>,
-    malformed: u64,
+    faults: Faults,
     tap: Option<Tap>,
 }
 
@@ -67,12 +74,13 @@ impl<R: Read + Seek> Player<R> {
             begin_s: seconds(summary.start),
             goals: RecordedGoals::new(inputs.results_topic.is_some()),
             mapping: None,
+            clock: Clock::of(summary, &inputs),
+            ahead_s: None,
             inputs,
             transforms: TransformBuffer::new(HISTORY_S),
-            offset_s: None,
             map: None,
             scan: None,
-            malformed: 0,
+            faults: Faults::default(),
             tap: None,
         })
     }
@@ -84,9 +92,10 @@ impl<R: Read + Seek> Player<R> {
 
     /// Makes a map of the scans from now on, and does not look at recorded ones. Without
     /// odometry there will be none.
-    pub fn map_scans(&mut self, config: BuilderConfig) {
+    pub fn map_scans(&mut self, config: BuilderConfig, summary: &Summary) {
         self.mapping = ScanMapping::new(config, &self.inputs);
         self.inputs.forget_map();
+        self.clock = Clock::of(summary, &self.inputs);
     }
 
     /// Plays all messages up to a time, but no further than a map or a result:
@@ -100,6 +109,9 @@ impl<R: Read + Seek> Player<R> {
             if self.play_one()? {
                 return Ok(self.since_begin_s(time));
             }
+        }
+        if self.playback.peek()?.is_none() {
+            self.take_scans(until_s, f64::INFINITY)?;
         }
         Ok(until_s)
     }
@@ -119,24 +131,28 @@ impl<R: Read + Seek> Player<R> {
             tap(&message);
         }
         let told = Told::of(&self.inputs, message.connection, message.data);
-        let time_s = seconds(message.time) - self.begin_s;
+        let (time_s, is_stray) = (seconds(message.time) - self.begin_s, message.is_stray);
+        let topic = Arc::clone(message.connection);
         match told {
             None => Ok(false),
             Some(Ok(told)) => {
                 let is_news = matches!(told, Told::Map(_) | Told::Patch(_) | Told::Result(_));
-                self.learn(told, time_s)?;
+                self.learn(told, &topic.topic, time_s, is_stray)?;
                 Ok(is_news)
             }
-            Some(Err(_)) => {
-                self.malformed += 1;
+            Some(Err(error)) => {
+                self.faults.count(&topic.topic, error);
                 Ok(false)
             }
         }
     }
 
-    fn learn(&mut self, told: Told, time_s: f64) -> Result<(), PlayError> {
+    fn learn(&mut self, told: Told, topic: &str, time_s: f64, is_stray: bool) -> Result<(), PlayError> {
         match told {
-            Told::Transforms { samples, is_static } => self.learn_transforms(samples, is_static, time_s),
+            Told::Transforms { samples, is_static: true } => {
+                samples.iter().for_each(|sample| self.learn_transform(sample, true));
+            }
+            Told::Transforms { samples, .. } => self.learn_moving(samples, topic, time_s, is_stray),
             Told::Map(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
                 self.map = Some(MapSnapshot { stamp_s, grid: Arc::new(message.grid), costmap: None });
@@ -145,7 +161,9 @@ impl<R: Read + Seek> Player<R> {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
                 if let Some(map) = &mut self.map {
                     map.stamp_s = stamp_s;
-                    self.malformed += u64::from(Arc::make_mut(&mut map.grid).apply(&message.patch).is_err());
+                    if let Err(error) = Arc::make_mut(&mut map.grid).apply(&message.patch) {
+                        self.faults.count(topic, error);
+                    }
                 }
             }
             Told::Scan(message) => self.learn_scan(message, time_s)?,
@@ -161,26 +179,27 @@ impl<R: Read + Seek> Player<R> {
         Ok(())
     }
 
-    fn learn_transforms(&mut self, samples: Vec<TransformSample>, is_static: bool, time_s: f64) {
-        for mut sample in samples {
-            let is_stamped = sample.stamp_s > 0.0;
-            sample.stamp_s -= self.begin_s;
-            if !is_static && is_stamped {
-                self.learn_clock(sample.stamp_s - time_s);
-            }
-            // What cannot be a transform is left out, as tf2 does.
-            let _ = self.transforms.insert(&sample, is_static);
-        }
+    /// What cannot be a transform is left out, as tf2 does; the summary of the bag tells of it.
+    fn learn_transform(&mut self, sample: &TransformSample, is_static: bool) {
+        let _ = self.transforms.insert(sample, is_static);
     }
 
-    /// Another clock's difference is that of the latest stamps: some nodes stamp ahead of
-    /// their time.
-    fn learn_clock(&mut self, difference_s: f64) {
-        let differs = difference_s.abs() > CLOCKS_DIFFER_S;
-        let offset_s = self.offset_s.get_or_insert(if differs { difference_s } else { 0.0 });
-        if differs && (*offset_s - difference_s).abs() <= CLOCKS_DIFFER_S {
-            *offset_s = offset_s.min(difference_s);
+    /// Takes transforms in that are true for a moment.
+    fn learn_moving(&mut self, mut samples: Vec<TransformSample>, topic: &str, time_s: f64, is_stray: bool) {
+        let now_s = time_s + self.clock.offset_s;
+        for sample in &mut samples {
+            let (parent, child) = (frame_name(&sample.parent), frame_name(&sample.child));
+            sample.stamp_s -= self.begin_s + self.clock.link_s(parent, child);
         }
+        let ahead_s = samples.iter().map(|sample| sample.stamp_s - now_s).fold(f64::NEG_INFINITY, f64::max);
+        let was_ahead_s = std::mem::replace(&mut self.ahead_s, (ahead_s > AHEAD_S).then_some(ahead_s));
+        let is_alone = ahead_s > AHEAD_S && was_ahead_s.is_none_or(|before_s| (before_s - ahead_s).abs() > AHEAD_S);
+        if is_alone || (is_stray && ahead_s.abs() > STRAY_S) {
+            let side = if ahead_s > 0.0 { "ahead of" } else { "behind" };
+            self.faults.count(topic, format_args!("it is stamped {:.1} s {side} the others", ahead_s.abs()));
+            return;
+        }
+        samples.iter().for_each(|sample| self.learn_transform(sample, false));
     }
 
     fn since_begin_s(&self, time: Nanos) -> f64 {
@@ -189,25 +208,40 @@ impl<R: Read + Seek> Player<R> {
 
     /// Keeps a scan, and takes it into the map that is made here.
     fn learn_scan(&mut self, mut message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
-        message.scan.stamp_s -= self.begin_s;
+        message.scan.stamp_s -= self.begin_s + self.clock.scans_s;
         if let Some(mapping) = &mut self.mapping {
-            let taken = mapping.add(message.clone(), &self.transforms)?;
-            let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
-            if taken > 0
-                && is_due
-                && let Some(grid) = mapping.map()
-            {
-                self.map = Some(MapSnapshot { stamp_s: time_s, grid: Arc::new(grid), costmap: None });
-            }
+            let now_s = time_s + self.clock.offset_s;
+            let taken = mapping.add(message.clone(), &self.transforms, now_s)?;
+            self.show_mapped(taken, time_s);
         }
         self.scan = Some(message);
         Ok(())
     }
 
+    /// Takes in the scans that still wait, at a time by the clock of the stamps.
+    fn take_scans(&mut self, time_s: f64, now_s: f64) -> Result<(), PlayError> {
+        if let Some(mapping) = &mut self.mapping {
+            let taken = mapping.settle(&self.transforms, now_s)?;
+            self.show_mapped(taken, time_s);
+        }
+        Ok(())
+    }
+
+    /// Shows the map that is made here, if it grew and its time has come.
+    fn show_mapped(&mut self, taken: usize, time_s: f64) {
+        let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
+        if taken > 0
+            && is_due
+            && let Some(grid) = self.mapping.as_ref().and_then(ScanMapping::map)
+        {
+            self.map = Some(MapSnapshot { stamp_s: time_s, grid: Arc::new(grid), costmap: None });
+        }
+    }
+
     /// The time of a header by the recording's clock where that can be, else when it was
     /// recorded.
     fn stamp_s(&self, header: Nanos, recorded_s: f64) -> f64 {
-        let header_s = self.since_begin_s(header) - self.offset_s.unwrap_or(0.0);
+        let header_s = self.since_begin_s(header) - self.clock.offset_s;
         if (0.0..=30.0).contains(&(recorded_s - header_s)) { header_s } else { recorded_s }
     }
 
@@ -235,7 +269,7 @@ impl<R: Read + Seek> Player<R> {
         match self.transforms.latest(&map_frame, &base_frame) {
             Err(why) => Err(PoseError::NotYet { map_frame, base_frame, why: why.to_string() }),
             Ok(newest) => {
-                let age_s = now_s + self.offset_s.unwrap_or(0.0) - newest.stamp_s;
+                let age_s = now_s + self.clock.offset_s - newest.stamp_s;
                 if age_s > TOLERANCE_S {
                     return Err(PoseError::Stale { map_frame, base_frame, age_s, limit_s: TOLERANCE_S });
                 }
@@ -272,13 +306,19 @@ impl<R: Read + Seek> Player<R> {
     #[must_use]
     pub fn scan(&self, robot_in_map: &Pose) -> Option<(Pose, Arc<LaserScan>)> {
         let base = self.inputs.base_frame.as_deref()?;
-        let (mount, scan) = on_robot(&self.transforms, base, self.scan.as_ref()?)?;
+        let (mount, scan) = on_robot(&self.transforms, base, self.scan.as_ref()?).ok()?;
         Some((robot_in_map.compose(&mount), Arc::new(scan)))
     }
 
-    /// Messages so far that were not what their types say, or updates that did not fit.
+    /// Messages so far that could not be used.
     #[must_use]
-    pub const fn malformed(&self) -> u64 {
-        self.malformed
+    pub const fn faults(&self) -> &Faults {
+        &self.faults
+    }
+
+    /// The inputs that are played.
+    #[must_use]
+    pub const fn inputs(&self) -> &Inputs {
+        &self.inputs
     }
 }
