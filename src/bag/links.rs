@@ -24,6 +24,9 @@ pub struct FrameLink {
     pub is_static: bool,
     /// How many transforms.
     pub messages: u64,
+    /// The first of them where it is static: it is true from the begin, whenever it was told.
+    #[serde(skip)]
+    pub fixed: Option<TransformSample>,
     /// How far their stamps are from the recorder's clock.
     #[serde(skip)]
     pub skew: Skew,
@@ -60,7 +63,8 @@ impl Links {
             Some(index) => index,
             None if links.len() >= MAX_PARENTS => return,
             None => {
-                links.push(FrameLink { parent: parent.to_owned(), is_static, ..FrameLink::default() });
+                let fixed = is_static.then(|| sample.clone());
+                links.push(FrameLink { parent: parent.to_owned(), is_static, fixed, ..FrameLink::default() });
                 links.len() - 1
             }
         };

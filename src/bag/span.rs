@@ -49,6 +49,17 @@ pub(super) struct Body {
     pub strays: Option<(u64, Nanos)>,
 }
 
+/// The times of a part of the messages.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Within {
+    /// The first.
+    pub first: Nanos,
+    /// The last.
+    pub last: Nanos,
+    /// The longest pause between, in seconds, and when it began.
+    pub longest: Option<(f64, Nanos)>,
+}
+
 impl Body {
     /// Whether a time is believed.
     pub const fn contains(&self, time: Nanos) -> bool {
@@ -137,9 +148,9 @@ impl Span {
             let messages = farther.unwrap_or_default().iter().map(|part| part.messages).sum();
             if is_stray(&body, next, messages) {
                 if is_left {
-                    before = 0
+                    before = 0;
                 } else {
-                    after = self.parts.len()
+                    after = self.parts.len();
                 }
                 continue;
             }
@@ -162,15 +173,14 @@ impl Span {
         found
     }
 
-    /// The first and the last time within a body, and the longest pause between, with when
-    /// it began.
-    pub fn within(&self, body: &Body) -> Option<(Nanos, Nanos, Option<(f64, Nanos)>)> {
+    /// The times within a body; `None` when there are none.
+    pub fn within(&self, body: &Body) -> Option<Within> {
         let inside: Vec<&Part> =
             self.parts.iter().filter(|part| part.end >= body.start && part.start <= body.end).collect();
         let (first, last) = (inside.first()?, inside.last()?);
         let pauses = inside.iter().zip(inside.iter().skip(1)).map(|(a, b)| (b.start - a.end, a.end));
         let longest = pauses.max_by_key(|(pause, _)| *pause).map(|(pause, at)| (seconds(pause), at));
-        Some((first.start, last.end, longest))
+        Some(Within { first: first.start, last: last.end, longest })
     }
 }
 
@@ -233,7 +243,7 @@ mod tests {
         assert!(span.parts.windows(2).all(|pair| pair[0].end < pair[1].start));
         assert_eq!(span.parts.iter().map(|part| part.messages).sum::<u64>(), 5000);
         let all = Body { start: 1, end: 5000 * 100 * S, strays: None };
-        let (first, last, _) = span.within(&all).unwrap();
-        assert_eq!((first, last), (1, 1 + 4999 * 100 * S));
+        let within = span.within(&all).unwrap();
+        assert_eq!((within.first, within.last), (1, 1 + 4999 * 100 * S));
     }
 }

@@ -6,7 +6,7 @@ use super::definitions::MessageType;
 use super::links::Links;
 use super::message;
 use super::skew::Skew;
-use super::span::{Body, PAUSE_S, Span};
+use super::span::{Body, PAUSE_S, Span, Within};
 use super::{Nanos, seconds};
 use serde::{Serialize, Serializer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -165,7 +165,7 @@ impl Counted {
 
     fn finish(self, body: &Body) -> TopicSummary {
         let mut summary = self.summary;
-        if let Some((first, last, pause)) = self.span.within(body) {
+        if let Some(Within { first, last, longest: pause }) = self.span.within(body) {
             (summary.first_s, summary.last_s) = (seconds(first), seconds(last));
             let span_s = summary.last_s - summary.first_s;
             summary.rate_hz = if span_s > 0.0 { summary.messages.saturating_sub(1) as f64 / span_s } else { 0.0 };

@@ -5,6 +5,7 @@ mod agreement;
 mod cause;
 mod clock;
 mod faults;
+mod frames;
 mod goals;
 mod guess;
 mod inputs;

@@ -3,6 +3,7 @@
 use super::Inputs;
 use super::clock::Clock;
 use super::faults::Faults;
+use super::frames::Frames;
 use super::goals::RecordedGoals;
 use super::scans::{ScanMapping, on_robot};
 use super::told::Told;
@@ -13,21 +14,12 @@ use crate::mapping::{BuilderConfig, MapperError};
 use crate::robot::{MapSnapshot, PoseError};
 use crate::scan::LaserScan;
 
-use crate::tf::{TransformBuffer, TransformSample, frame_name, planar, upright};
+use crate::tf::{frame_name, planar, upright};
 use std::io::{Read, Seek};
 use std::sync::Arc;
 
-/// How far back transforms are remembered, seconds.
-const HISTORY_S: f64 = 10.0;
-/// A transform that is older than this is not believed, seconds.
-const TOLERANCE_S: f64 = 0.5;
 /// From one map that is made of scans to the next, seconds at the least.
 const MAP_PERIOD_S: f64 = 1.0;
-/// A transform that is stamped this far ahead of the clock, seconds, is taken in only when the
-/// next is too: a single one would hide all that follow.
-const AHEAD_S: f64 = 5.0;
-/// One that was recorded at a time that cannot be must be this near to the clock, seconds.
-const STRAY_S: f64 = 1.0;
 
 /// Is handed every message as it is played.
 pub type Tap = Box<dyn FnMut(&PlayedMessage<'_>)>;
@@ -49,11 +41,7 @@ pub struct Player<R> {
     /// The bag's begin, seconds since 1970.
     begin_s: f64,
     inputs: Inputs,
-    transforms: TransformBuffer,
-    /// The clock that headers go by.
-    clock: Clock,
-    /// How far ahead the last message of tf was, if it was too far, seconds.
-    ahead_s: Option<f64>,
+    frames: Frames,
     map: Option<MapSnapshot>,
     scan: Option<ScanMessage>,
     goals: RecordedGoals,
@@ -74,10 +62,8 @@ impl<R: Read + Seek> Player<R> {
             begin_s: seconds(summary.start),
             goals: RecordedGoals::new(inputs.results_topic.is_some()),
             mapping: None,
-            clock: Clock::of(summary, &inputs),
-            ahead_s: None,
+            frames: Frames::new(summary, Clock::of(summary, &inputs)),
             inputs,
-            transforms: TransformBuffer::new(HISTORY_S),
             map: None,
             scan: None,
             faults: Faults::default(),
@@ -95,7 +81,7 @@ impl<R: Read + Seek> Player<R> {
     pub fn map_scans(&mut self, config: BuilderConfig, summary: &Summary) {
         self.mapping = ScanMapping::new(config, &self.inputs);
         self.inputs.forget_map();
-        self.clock = Clock::of(summary, &self.inputs);
+        self.frames.clock = Clock::of(summary, &self.inputs);
     }
 
     /// Plays all messages up to a time, but no further than a map or a result:
@@ -149,10 +135,12 @@ impl<R: Read + Seek> Player<R> {
 
     fn learn(&mut self, told: Told, topic: &str, time_s: f64, is_stray: bool) -> Result<(), PlayError> {
         match told {
-            Told::Transforms { samples, is_static: true } => {
-                samples.iter().for_each(|sample| self.learn_transform(sample, true));
+            Told::Transforms { samples, is_static: true } => self.frames.learn_fixed(&samples),
+            Told::Transforms { samples, .. } => {
+                if let Err(reason) = self.frames.learn_moving(samples, time_s, is_stray) {
+                    self.faults.count(topic, reason);
+                }
             }
-            Told::Transforms { samples, .. } => self.learn_moving(samples, topic, time_s, is_stray),
             Told::Map(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
                 self.map = Some(MapSnapshot { stamp_s, grid: Arc::new(message.grid), costmap: None });
@@ -179,39 +167,16 @@ impl<R: Read + Seek> Player<R> {
         Ok(())
     }
 
-    /// What cannot be a transform is left out, as tf2 does; the summary of the bag tells of it.
-    fn learn_transform(&mut self, sample: &TransformSample, is_static: bool) {
-        let _ = self.transforms.insert(sample, is_static);
-    }
-
-    /// Takes transforms in that are true for a moment.
-    fn learn_moving(&mut self, mut samples: Vec<TransformSample>, topic: &str, time_s: f64, is_stray: bool) {
-        let now_s = time_s + self.clock.offset_s;
-        for sample in &mut samples {
-            let (parent, child) = (frame_name(&sample.parent), frame_name(&sample.child));
-            sample.stamp_s -= self.begin_s + self.clock.link_s(parent, child);
-        }
-        let ahead_s = samples.iter().map(|sample| sample.stamp_s - now_s).fold(f64::NEG_INFINITY, f64::max);
-        let was_ahead_s = std::mem::replace(&mut self.ahead_s, (ahead_s > AHEAD_S).then_some(ahead_s));
-        let is_alone = ahead_s > AHEAD_S && was_ahead_s.is_none_or(|before_s| (before_s - ahead_s).abs() > AHEAD_S);
-        if is_alone || (is_stray && ahead_s.abs() > STRAY_S) {
-            let side = if ahead_s > 0.0 { "ahead of" } else { "behind" };
-            self.faults.count(topic, format_args!("it is stamped {:.1} s {side} the others", ahead_s.abs()));
-            return;
-        }
-        samples.iter().for_each(|sample| self.learn_transform(sample, false));
-    }
-
     fn since_begin_s(&self, time: Nanos) -> f64 {
         seconds(time) - self.begin_s
     }
 
     /// Keeps a scan, and takes it into the map that is made here.
     fn learn_scan(&mut self, mut message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
-        message.scan.stamp_s -= self.begin_s + self.clock.scans_s;
+        message.scan.stamp_s -= self.begin_s + self.frames.clock.scans_s();
         if let Some(mapping) = &mut self.mapping {
-            let now_s = time_s + self.clock.offset_s;
-            let taken = mapping.add(message.clone(), &self.transforms, now_s)?;
+            let now_s = self.frames.now_s(time_s);
+            let taken = mapping.add(message.clone(), &self.frames.transforms, now_s)?;
             self.show_mapped(taken, time_s);
         }
         self.scan = Some(message);
@@ -221,7 +186,7 @@ impl<R: Read + Seek> Player<R> {
     /// Takes in the scans that still wait, at a time by the clock of the stamps.
     fn take_scans(&mut self, time_s: f64, now_s: f64) -> Result<(), PlayError> {
         if let Some(mapping) = &mut self.mapping {
-            let taken = mapping.settle(&self.transforms, now_s)?;
+            let taken = mapping.settle(&self.frames.transforms, now_s)?;
             self.show_mapped(taken, time_s);
         }
         Ok(())
@@ -241,7 +206,7 @@ impl<R: Read + Seek> Player<R> {
     /// The time of a header by the recording's clock where that can be, else when it was
     /// recorded.
     fn stamp_s(&self, header: Nanos, recorded_s: f64) -> f64 {
-        let header_s = self.since_begin_s(header) - self.clock.offset_s;
+        let header_s = self.since_begin_s(header) - self.frames.clock.offset_s();
         if (0.0..=30.0).contains(&(recorded_s - header_s)) { header_s } else { recorded_s }
     }
 
@@ -250,7 +215,7 @@ impl<R: Read + Seek> Player<R> {
         if frame_name(frame) == frame_name(map_frame) || frame.is_empty() {
             return Some(self.corrected(*pose));
         }
-        let there = self.transforms.latest(map_frame, frame).ok()?;
+        let there = self.frames.transforms.latest(map_frame, frame).ok()?;
         Some(self.corrected(planar(&(there.transform * upright(pose)))))
     }
 
@@ -266,16 +231,8 @@ impl<R: Read + Seek> Player<R> {
     pub fn pose(&self, now_s: f64) -> Result<Pose, PoseError> {
         let name = |frame: &Option<String>| frame.clone().unwrap_or_else(|| "(none)".to_owned());
         let (map_frame, base_frame) = (name(&self.inputs.map_frame), name(&self.inputs.base_frame));
-        match self.transforms.latest(&map_frame, &base_frame) {
-            Err(why) => Err(PoseError::NotYet { map_frame, base_frame, why: why.to_string() }),
-            Ok(newest) => {
-                let age_s = now_s + self.clock.offset_s - newest.stamp_s;
-                if age_s > TOLERANCE_S {
-                    return Err(PoseError::Stale { map_frame, base_frame, age_s, limit_s: TOLERANCE_S });
-                }
-                Ok(self.corrected(planar(&newest.transform)))
-            }
-        }
+        let newest = self.frames.robot(&map_frame, &base_frame, now_s)?;
+        Ok(self.corrected(planar(&newest.transform)))
     }
 
     /// The newest map.
@@ -306,7 +263,7 @@ impl<R: Read + Seek> Player<R> {
     #[must_use]
     pub fn scan(&self, robot_in_map: &Pose) -> Option<(Pose, Arc<LaserScan>)> {
         let base = self.inputs.base_frame.as_deref()?;
-        let (mount, scan) = on_robot(&self.transforms, base, self.scan.as_ref()?).ok()?;
+        let (mount, scan) = on_robot(&self.frames.transforms, base, self.scan.as_ref()?).ok()?;
         Some((robot_in_map.compose(&mount), Arc::new(scan)))
     }
 
