@@ -79,6 +79,36 @@ fn headers_may_go_by_a_clock_of_their_own() {
 }
 
 #[test]
+fn the_clock_of_the_headers_may_have_its_own_speed() {
+    let folder = tempfile::tempdir().unwrap();
+    for (speed, skew_s) in [(0.25, 0.0), (0.5, -40_000.0), (2.0, 0.0), (4.0, 300.0)] {
+        let bag = spoiled(folder.path(), Drive { speed, skew_s, begin_s: 50_000.0, ..Drive::default() }, |_| {});
+        is_whole(&bag, &[]);
+        is_whole(&bag, &["--map-from-scans"]);
+        assert!(mapped(&bag, &[]).1 >= 45, "{speed}");
+    }
+}
+
+#[test]
+fn sources_may_have_clocks_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    for skew_s in [-4000.0, -20.0, 20.0, 4000.0] {
+        for topic in ["/tf", "/scan", "/map"] {
+            let others = Drive { begin_s: 50_000.0, ..Drive::default() };
+            let bag = spoiled(folder.path(), others, |messages| {
+                messages.retain(|message| message.topic != topic);
+                let skewed = Drive { skew_s, ..others }.messages();
+                messages.extend(skewed.into_iter().filter(|message| message.topic == topic));
+                messages.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+            });
+            is_whole(&bag, &[]);
+            let (code, taken, said) = mapped(&bag, &[]);
+            assert!(code == 0 && taken >= 45, "{topic} {skew_s}: {said}");
+        }
+    }
+}
+
+#[test]
 fn a_time_that_cannot_be_poisons_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let topics = ["/tf", "/tf_static", "/map", "/scan"];

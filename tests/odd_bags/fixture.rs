@@ -37,6 +37,8 @@ pub struct Message {
 pub struct Drive {
     /// Header time minus record time, seconds.
     pub skew_s: f64,
+    /// So many times as fast as the recorder's goes the clock of the headers.
+    pub speed: f64,
     pub range_min: f64,
     pub range_max: f64,
     /// What rays say that hit nothing.
@@ -47,7 +49,7 @@ pub struct Drive {
 
 impl Default for Drive {
     fn default() -> Self {
-        Self { skew_s: 0.0, range_min: 0.1, range_max: REACH_M, nothing: f32::INFINITY, begin_s: BEGIN_S }
+        Self { skew_s: 0.0, speed: 1.0, range_min: 0.1, range_max: REACH_M, nothing: f32::INFINITY, begin_s: BEGIN_S }
     }
 }
 
@@ -62,7 +64,7 @@ impl Drive {
         put(&mut messages, "/tf_static", MessageType::Transforms, self.begin_s, tf_message(&[mount]));
         for tick in 0..=(10.0 * DRIVE_S) as u32 {
             let since_s = 0.1 * f64::from(tick);
-            let (time_s, stamp_s) = (self.begin_s + since_s, self.begin_s + since_s + self.skew_s);
+            let (time_s, stamp_s) = (self.begin_s + since_s, self.begin_s + self.speed * since_s + self.skew_s);
             let pose = Pose::new(2.0 + WAY_M * since_s / DRIVE_S, 3.0, 0.0);
             let header = |frame: &str| Header { seq: tick, stamp: nanos(stamp_s), frame: frame.to_owned() };
             let both = [
