@@ -164,8 +164,9 @@ fn transforms_that_tf2_ignores_decide_nothing() {
             TransformSample { rotation_xyzw: [f64::NAN; 4], ..sample("foo", "base_link", time_s) },
             TransformSample { rotation_xyzw: [0.0; 4], ..sample("foo", "base_link", time_s) },
             TransformSample { translation_m: [f64::INFINITY; 3], ..sample("foo", "odom", time_s) },
-            // tf2 takes this one as a new parent, for the moment.
+            // tf2 takes these as new parents, for the moment.
             sample("foo", "base_link", time_s - 0.001),
+            sample("base_link", "map", time_s - 0.001),
         ];
         for stray in &strays {
             let bag = spoiled(folder.path(), Drive::default(), |messages| {

@@ -7,7 +7,7 @@ use super::skew::Skew;
 use super::{Nanos, nanos};
 use crate::tf::{TransformSample, frame_name};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The most frames that are told apart, and the most parents of one.
 const MAX_FRAMES: usize = 4096;
@@ -76,7 +76,8 @@ impl Links {
 
     /// Each frame with the parent that most transforms name, the last one of several such;
     /// and a sentence for what was turned away and for each frame with more than one parent.
-    pub fn finish(self) -> (BTreeMap<String, FrameLink>, Vec<String>) {
+    /// Of parents in a circle, the one of fewest transforms is none.
+    pub fn finish(self) -> Tree {
         let mut notes: Vec<String> = Vec::new();
         for (reason, count) in &self.rejected {
             notes.push(format!("{count} transforms are ignored, as tf2 does; {reason}"));
@@ -92,9 +93,50 @@ impl Links {
                 tree.insert(child, link);
             }
         }
+        let mut circular = BTreeSet::new();
+        let children: Vec<String> = tree.keys().cloned().collect();
+        for child in children {
+            if let Some((frame, link)) =
+                weakest_of_circle(&tree, &child).and_then(|weakest| tree.remove_entry(&weakest))
+            {
+                notes.push(format!(
+                    "{frame} in {} ({}) closes a circle in tf: it is ignored",
+                    link.parent, link.messages
+                ));
+                circular.insert((frame, link.parent));
+            }
+        }
         notes.truncate(2 * MAX_REASONS);
-        (tree, notes)
+        Tree { links: tree, circular, notes }
     }
+}
+
+/// The tree of frames.
+pub(super) struct Tree {
+    /// The frames with their parents.
+    pub links: BTreeMap<String, FrameLink>,
+    /// Frames and parents that would make a circle of it.
+    pub circular: BTreeSet<(String, String)>,
+    /// What is odd, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// The frame with fewest transforms of the circle that leads from a frame to itself; one that
+/// is fixed to its parent needs only one transform.
+fn weakest_of_circle(tree: &BTreeMap<String, FrameLink>, frame: &str) -> Option<String> {
+    let mut weakest: Option<(&str, &FrameLink)> = None;
+    let mut at = frame;
+    for _ in 0..tree.len() {
+        let (name, link) = tree.get_key_value(at)?;
+        if weakest.is_none_or(|(_, least)| (link.is_static, link.messages) < (least.is_static, least.messages)) {
+            weakest = Some((name, link));
+        }
+        at = &link.parent;
+        if at == frame {
+            return weakest.map(|(name, _)| name.to_owned());
+        }
+    }
+    None
 }
 
 #[cfg(test)]
@@ -103,7 +145,7 @@ mod tests {
     use crate::geometry::Pose;
 
     /// Counts ten transforms of a robot with another one at each of some places.
-    fn counted(stray: &TransformSample, at: &[usize]) -> (BTreeMap<String, FrameLink>, Vec<String>) {
+    fn counted(stray: &TransformSample, at: &[usize]) -> Tree {
         let mut links = Links::default();
         for i in 0..=10 {
             if at.contains(&i) {
@@ -129,7 +171,7 @@ mod tests {
             (TransformSample { rotation_xyzw: [0.0; 4], ..good.clone() }, "no unit quaternion: its norm is 0.000"),
         ];
         for (stray, reason) in strays {
-            let (tree, notes) = counted(&stray, &[0, 5]);
+            let Tree { links: tree, notes, .. } = counted(&stray, &[0, 5]);
             assert_eq!((tree["base_link"].parent.as_str(), tree.len()), ("odom", 2), "{stray:?}");
             assert!(notes.len() == 1 && notes[0].starts_with("3 transforms are ignored") && notes[0].contains(reason));
         }
@@ -137,8 +179,18 @@ mod tests {
 
     #[test]
     fn the_parent_of_most_transforms_counts() {
-        let (tree, notes) = counted(&TransformSample::planar(105.0, "cup", "base_link", &Pose::default()), &[]);
+        let stray = TransformSample::planar(105.0, "cup", "base_link", &Pose::default());
+        let Tree { links: tree, notes, .. } = counted(&stray, &[]);
         assert_eq!(tree["base_link"].parent, "odom");
         assert_eq!(notes, ["base_link has more than one parent in tf: odom (11), cup (1)"]);
+    }
+
+    #[test]
+    fn a_circle_is_opened_where_fewest_transforms_close_it() {
+        let stray = TransformSample::planar(105.0, "base_link", "map", &Pose::default());
+        let Tree { links, circular, notes } = counted(&stray, &[0]);
+        assert_eq!(links.keys().collect::<Vec<_>>(), ["base_link", "odom"]);
+        assert!(circular.contains(&("map".to_owned(), "base_link".to_owned())));
+        assert_eq!(notes, ["map in base_link (2) closes a circle in tf: it is ignored"]);
     }
 }

@@ -4,12 +4,12 @@ use super::chunk::Compression;
 use super::connections::Connection;
 use super::content::Chunk;
 use super::definitions::MessageType;
-use super::links::{FrameLink, Links};
+use super::links::{FrameLink, Links, Tree};
 use super::reader::BagReader;
 use super::span::Span;
 use super::topics::{TopicSummary, Topics};
 use super::{BagError, Nanos, seconds};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{Read, Seek};
 use std::sync::Arc;
 
@@ -46,6 +46,8 @@ pub struct Summary {
     pub topics: Vec<TopicSummary>,
     /// The frames of tf with their parents.
     pub tf: BTreeMap<String, FrameLink>,
+    /// Frames and parents that are ignored, as they would make a circle of the tree.
+    pub circular: BTreeSet<(String, String)>,
     /// Where the chunks lie, in the order of the file.
     pub chunks: Vec<ChunkPlace>,
     /// What is wrong with the file, a sentence each.
@@ -73,7 +75,7 @@ impl Summary {
         let body = span.body().unwrap_or_default();
         (this.start, this.end) = (body.start, body.end);
         this.topics = topics.finish(&body);
-        (this.tf, this.notes) = links.finish();
+        Tree { links: this.tf, circular: this.circular, notes: this.notes } = links.finish();
         if let Some((messages, time)) = body.strays {
             let away_s = seconds(time.abs_diff(if time < body.start { body.start } else { body.end }));
             if away_s > NEAR_S {

@@ -4,6 +4,7 @@ use super::clock::Clock;
 use crate::bag::{Summary, seconds};
 use crate::robot::PoseError;
 use crate::tf::{Stamped, TransformBuffer, TransformSample, frame_name};
+use std::collections::BTreeSet;
 
 /// How far back transforms are remembered, seconds.
 const HISTORY_S: f64 = 10.0;
@@ -25,6 +26,9 @@ pub struct Frames {
     pub clock: Clock,
     /// The bag's begin, seconds since 1970.
     begin_s: f64,
+    /// Frames and parents that would make a circle of the tree: one message of a frame that
+    /// has no parent otherwise would stay.
+    circular: BTreeSet<(String, String)>,
     /// How far ahead the last message was, if it was too far, seconds.
     ahead_s: Option<f64>,
 }
@@ -33,7 +37,8 @@ impl Frames {
     /// Before the first message, with what is fixed in the whole bag.
     pub fn new(summary: &Summary, clock: Clock) -> Self {
         let transforms = TransformBuffer::new(HISTORY_S);
-        let mut this = Self { transforms, clock, begin_s: seconds(summary.start), ahead_s: None };
+        let (begin_s, circular) = (seconds(summary.start), summary.circular.clone());
+        let mut this = Self { transforms, clock, begin_s, circular, ahead_s: None };
         summary.tf.values().filter_map(|link| link.fixed.as_ref()).for_each(|fixed| this.learn_fixed([fixed]));
         this
     }
@@ -47,8 +52,16 @@ impl Frames {
     /// tf2 does; the summary of the bag tells of it.
     pub fn learn_fixed<'a>(&mut self, samples: impl IntoIterator<Item = &'a TransformSample>) {
         for sample in samples {
-            let _ = self.transforms.insert(sample, true);
+            self.insert(sample, true);
         }
+    }
+
+    /// Whether a transform is taken in.
+    fn insert(&mut self, sample: &TransformSample, is_static: bool) -> bool {
+        let name = |name: &str| frame_name(name).to_owned();
+        let is_circular =
+            !self.circular.is_empty() && self.circular.contains(&(name(&sample.child), name(&sample.parent)));
+        !is_circular && self.transforms.insert(sample, is_static).is_ok()
     }
 
     /// Takes transforms in that are true for a moment.
@@ -75,7 +88,7 @@ impl Frames {
             return Err(format!("it is stamped {:.1} s {side} the others", ahead_s.abs()));
         }
         for (sample, is_stamped) in samples.iter().zip(are_stamped) {
-            if self.transforms.insert(sample, false).is_ok() && is_stamped && !is_stray {
+            if self.insert(sample, false) && is_stamped && !is_stray {
                 self.clock.learn(frame_name(&sample.child), sample.stamp_s - time_s);
             }
         }
