@@ -8,7 +8,7 @@ use super::definitions::MessageType;
 use super::{Nanos, seconds};
 use crate::geometry::Pose;
 use crate::grid::{Cell, GridInfo, GridPatch, OccupancyGrid};
-use crate::scan::{LaserScan, believable_limits};
+use crate::scan::{BEYOND_ALL_LIDARS_M, LaserScan, Reading, believable_limits};
 use crate::tf::{TransformSample, planar};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
@@ -173,9 +173,23 @@ pub(super) fn check(kind: MessageType, bytes: &[u8]) -> Result<(), Malformed> {
             let (_, info) = cursor.map_head()?;
             cells_fit(&info, cursor.block("data")?.len())
         }
-        MessageType::Scan => cursor.scan_head().map(drop),
         _ => Ok(()),
     }
+}
+
+/// Whether any reading of a scan tells a distance, or that nothing is there.
+///
+/// # Errors
+/// [`Malformed`] with what is wrong.
+pub(super) fn scan_tells(bytes: &[u8]) -> Result<bool, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    let (_, scan, ranges) = cursor.scan_head()?;
+    let tells = |&bytes: &[u8; 4]| match scan.reading(f32::from_le_bytes(bytes)) {
+        Reading::Hit(range_m) => range_m < BEYOND_ALL_LIDARS_M,
+        Reading::Clear(_) => true,
+        Reading::None => false,
+    };
+    Ok(ranges.iter().any(tells))
 }
 
 fn cells_fit(info: &GridInfo, cells: usize) -> Result<(), Malformed> {

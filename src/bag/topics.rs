@@ -52,6 +52,8 @@ pub struct TopicSummary {
     pub malformed: u64,
     /// What is wrong with the first of them.
     pub first_fault: Option<String>,
+    /// Scans of which no reading tells a distance, or that nothing is there.
+    pub silent: u64,
     /// How far their stamps are from the recorder's clock.
     #[serde(skip)]
     pub skew: Skew,
@@ -159,6 +161,9 @@ impl Counted {
                 self.frames.insert(header.frame, 1);
             }
             message::check(kind, data)?;
+            if kind == MessageType::Scan && !message::scan_tells(data)? {
+                self.summary.silent += 1;
+            }
         }
         Ok(())
     }

@@ -122,7 +122,8 @@ impl ScanMapping {
         let lidar = |error: TransformError| (Why::Lidar, error.to_string());
         let (mount, scan) = on_robot(transforms, &self.base_frame, message).map_err(lidar)?;
         if !self.builder.can_use(&scan) {
-            let reason = "no reading tells a distance, or how far nothing is".to_owned();
+            let reason =
+                "no reading tells a distance, or how far nothing is (map build --max-range tells it)".to_owned();
             return Err((Why::Empty, reason));
         }
         let robot = transforms.at(&self.odom_frame, &self.base_frame, scan.stamp_s);

@@ -65,6 +65,9 @@ fn with_map(summary: &Summary, inputs: &Inputs, map: &str) -> Result<String, Str
 fn scans(summary: &Summary, inputs: &Inputs) -> Result<String, String> {
     let Some(topic) = &inputs.scan_topic else { return Err("there are no scans".to_owned()) };
     let scans = readable(summary, topic, MessageType::Scan)?;
+    if scans.is_some_and(|scans| scans.silent > 0 && scans.silent + scans.malformed >= scans.messages) {
+        return Err(format!("no reading of any scan on {topic} tells a distance, or that nothing is there"));
+    }
     let Some(base) = &inputs.base_frame else { return Err(no_robot(summary, "odom")) };
     let odom = shown(&inputs.odom_frame);
     leads(summary, odom, base, "odometry", "the robot")?;
