@@ -301,6 +301,9 @@ fn a_replay_without_a_decision_fails_and_says_what_was_missing() {
     });
     let (code, _, error) = run(&["replay"], &bag, &["--out", &out]);
     assert!(code == 1 && error.contains("nothing was decided: a map and the robot's pose"), "{error}");
+    // What there is, is written; no moment can be shown.
+    let is_there = |name: &str| folder.path().join("x").join(name).is_file();
+    assert!(is_there("run.json") && is_there("report.html") && !is_there("replay.gif"));
     let bag = spoiled(folder.path(), Drive::default(), |messages| {
         let stale = |time_s: f64| TransformSample::planar(time_s - 30.0, "map", "odom", &Pose::default());
         for message in messages.iter_mut().filter(|message| message.topic == "/tf") {

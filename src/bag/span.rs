@@ -136,7 +136,7 @@ impl Span {
             let right = self.parts.get(after);
             let (next, is_left) = match (left, right) {
                 (Some(a), Some(b)) => {
-                    let is_left = body.start - a.end <= b.start - body.end;
+                    let is_left = body.start.saturating_sub(a.end) <= b.start.saturating_sub(body.end);
                     (if is_left { a } else { b }, is_left)
                 }
                 (Some(a), None) => (a, true),
@@ -178,7 +178,7 @@ impl Span {
         let inside: Vec<&Part> =
             self.parts.iter().filter(|part| part.end >= body.start && part.start <= body.end).collect();
         let (first, last) = (inside.first()?, inside.last()?);
-        let pauses = inside.iter().zip(inside.iter().skip(1)).map(|(a, b)| (b.start - a.end, a.end));
+        let pauses = inside.iter().zip(inside.iter().skip(1)).map(|(a, b)| (b.start.saturating_sub(a.end), a.end));
         let longest = pauses.max_by_key(|(pause, _)| *pause).map(|(pause, at)| (seconds(pause), at));
         Some(Within { first: first.start, last: last.end, longest })
     }
@@ -186,8 +186,9 @@ impl Span {
 
 /// Whether the next part, with so many messages in it and behind it, is not of the body.
 fn is_stray(body: &Part, next: &Part, messages: u64) -> bool {
-    let pause = if next.end < body.start { body.start - next.end } else { next.start.saturating_sub(body.end) };
-    let near_s = NEAR_S.max(NEAR_TIMES * seconds(body.end - body.start));
+    let pause =
+        if next.end < body.start { body.start.saturating_sub(next.end) } else { next.start.saturating_sub(body.end) };
+    let near_s = NEAR_S.max(NEAR_TIMES * seconds(body.end.saturating_sub(body.start)));
     let is_few = 10 * messages <= body.messages && (messages <= FEW || 100 * messages <= body.messages);
     is_few && seconds(pause) > near_s
 }
