@@ -2,7 +2,7 @@
 //! `cargo run --release --example report_gallery -- <directory> [columns] [rows]`.
 
 use frontier_explorer::explore::{
-    CandidateRecord, CandidateStatus, Counts, DecisionRecord, EndReason, LeftBehind, Position,
+    CandidateRecord, CandidateStatus, Counts, DecisionRecord, EndReason, LeftBehind, Position, TimeSpent,
 };
 use frontier_explorer::geometry::{Point, Pose};
 use frontier_explorer::grid::{Cell, GridInfo, NEIGHBOURS_4, OccupancyGrid, Thresholds, traverse};
@@ -246,6 +246,7 @@ fn record(run: &Run) -> RunRecord {
         time_to_coverage_s: run.series.time_to_coverage_s(),
         distance_to_coverage_m: run.series.distance_to_coverage_m(),
         counts: Counts { goals_sent: run.goals.len(), goals_reached: 5, detections: 211, ..Counts::default() },
+        time_spent: TimeSpent::default(),
         left_behind: LeftBehind { frontiers: 3, unreachable: 2, failed: 1, ..LeftBehind::default() },
         decisions: decisions.collect(),
         series: run.series.points(),

@@ -14,10 +14,31 @@ pub struct LaserScan {
     pub angle_increment_rad: f64,
     /// Readings below this many metres are no obstacle.
     pub range_min_m: f64,
-    /// Readings above this many metres are no obstacle.
+    /// Readings above this many metres are no obstacle; infinite where the sensor tells none.
     pub range_max_m: f64,
     /// One reading a ray, metres.
     pub ranges_m: Vec<f32>,
+}
+
+/// No planar lidar reaches this far, metres: a `range_max` from here on tells no limit.
+pub const BEYOND_ALL_LIDARS_M: f64 = 1000.0;
+/// Nothing is measured nearer than this, metres, where `range_min` tells nothing.
+const NEAREST_M: f64 = 0.001;
+
+/// `range_min` and `range_max` in metres, as far as they can be. Of a sensor that tells no
+/// limit (infinite, NaN, 0, the largest number there is) the latter is infinite; where the
+/// two contradict each other, neither is believed.
+#[must_use]
+pub fn believable_limits(range_min: f32, range_max: f32) -> (f64, f64) {
+    let (min_m, max_m) = (f64::from(range_min), f64::from(range_max));
+    let min_m = if (0.0..BEYOND_ALL_LIDARS_M).contains(&min_m) { min_m } else { NEAREST_M };
+    if !(max_m > 0.0 && max_m < BEYOND_ALL_LIDARS_M) {
+        (min_m, f64::INFINITY)
+    } else if min_m >= max_m {
+        (NEAREST_M, f64::INFINITY)
+    } else {
+        (min_m, max_m)
+    }
 }
 
 /// What one ray of a scan says.
@@ -127,6 +148,19 @@ impl LaserScan {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn limits_that_cannot_be_are_not_believed() {
+        let unlimited = (0.125, f64::INFINITY);
+        for range_max in [f32::INFINITY, f32::NAN, 0.0, -1.0, f32::MAX, f32::NEG_INFINITY] {
+            assert_eq!(believable_limits(0.125, range_max), unlimited, "{range_max}");
+        }
+        assert_eq!(believable_limits(0.125, 8.0), (0.125, 8.0));
+        for (range_min, range_max) in [(8.0, 0.125), (8.0, 8.0), (f32::NAN, f32::INFINITY), (f32::INFINITY, 0.0)] {
+            assert_eq!(believable_limits(range_min, range_max), (NEAREST_M, f64::INFINITY), "{range_min} {range_max}");
+        }
+        assert_eq!(believable_limits(-1.0, 8.0), (NEAREST_M, 8.0));
+    }
 
     #[test]
     fn rep_117_tells_hits_from_clear_and_nothing() {

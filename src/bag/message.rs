@@ -4,10 +4,11 @@
 //! before ([`super::MessageType`]).
 
 use super::cursor::{Cursor, Malformed};
+use super::definitions::MessageType;
 use super::{Nanos, seconds};
 use crate::geometry::Pose;
 use crate::grid::{Cell, GridInfo, GridPatch, OccupancyGrid};
-use crate::scan::LaserScan;
+use crate::scan::{BEYOND_ALL_LIDARS_M, LaserScan, Reading, believable_limits};
 use crate::tf::{TransformSample, planar};
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
@@ -93,12 +94,55 @@ impl Cursor<'_> {
         if pose.is_finite() {
             Ok(pose)
         } else {
-            Err(Malformed::Wrong("a pose with numbers that are not finite".into()))
+            Err(Malformed::Wrong(format!(
+                "a pose that is not finite: position ({x}, {y}, {z}), orientation ({i}, {j}, {k}, {w})"
+            )))
         }
     }
 
     fn cells(&mut self) -> Result<Vec<i8>, Malformed> {
         Ok(self.block("data")?.iter().map(|&byte| byte.cast_signed()).collect())
+    }
+
+    /// All of a map but its cells.
+    fn map_head(&mut self) -> Result<(Header, GridInfo), Malformed> {
+        let header = self.header()?;
+        self.time("map_load_time")?;
+        let resolution = self.f32("resolution")?;
+        let (width, height) = (self.u32("width")?, self.u32("height")?);
+        let origin = self.pose().map_err(|error| Malformed::Wrong(format!("the map's origin: {error}")))?;
+        // The value as it came, as in the nodes: costmap_2d and its planners compute with it.
+        let resolution_m = f64::from(resolution);
+        let info = GridInfo::new(width, height, resolution_m, origin);
+        Ok((header, info.map_err(|error| Malformed::Wrong(error.to_string()))?))
+    }
+
+    /// All of a scan but its ranges, and their bytes. Limits that cannot be are replaced.
+    fn scan_head(&mut self) -> Result<(Header, LaserScan, &[[u8; 4]]), Malformed> {
+        let header = self.header()?;
+        let angle_min = self.f32("angle_min")?;
+        self.f32("angle_max")?;
+        let angle_increment = self.f32("angle_increment")?;
+        self.f32("time_increment")?;
+        self.f32("scan_time")?;
+        let (range_min, range_max) = (self.f32("range_min")?, self.f32("range_max")?);
+        let count = self.count(4, "ranges")?;
+        let (ranges, _) = self.take(4 * count as u64, "ranges")?.as_chunks::<4>();
+        if !(angle_min.is_finite() && angle_increment.is_finite()) {
+            return Err(Malformed::Wrong(format!(
+                "a scan whose angles are not finite: angle_min {angle_min}, angle_increment {angle_increment}"
+            )));
+        }
+        let (range_min_m, range_max_m) = believable_limits(range_min, range_max);
+        let scan = LaserScan {
+            stamp_s: seconds(header.stamp),
+            angle_min_rad: f64::from(angle_min),
+            angle_increment_rad: f64::from(angle_increment),
+            range_min_m,
+            range_max_m,
+            ranges_m: Vec::new(),
+        };
+        Ok((header, scan, ranges))
     }
 }
 
@@ -118,22 +162,52 @@ pub fn clock(bytes: &[u8]) -> Result<Nanos, Malformed> {
     Cursor::new(bytes).time("clock")
 }
 
-/// A `nav_msgs/OccupancyGrid`.
+/// Whether a message of a type can be decoded, without its many numbers.
+///
+/// # Errors
+/// [`Malformed`] with what is wrong.
+pub(super) fn check(kind: MessageType, bytes: &[u8]) -> Result<(), Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    match kind {
+        MessageType::Map => {
+            let (_, info) = cursor.map_head()?;
+            cells_fit(&info, cursor.block("data")?.len())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether any reading of a scan tells a distance, or that nothing is there.
+///
+/// # Errors
+/// [`Malformed`] with what is wrong.
+pub(super) fn scan_tells(bytes: &[u8]) -> Result<bool, Malformed> {
+    let mut cursor = Cursor::new(bytes);
+    let (_, scan, ranges) = cursor.scan_head()?;
+    let tells = |&bytes: &[u8; 4]| match scan.reading(f32::from_le_bytes(bytes)) {
+        Reading::Hit(range_m) => range_m < BEYOND_ALL_LIDARS_M,
+        Reading::Clear(_) => true,
+        Reading::None => false,
+    };
+    Ok(ranges.iter().any(tells))
+}
+
+fn cells_fit(info: &GridInfo, cells: usize) -> Result<(), Malformed> {
+    if cells == info.len() {
+        return Ok(());
+    }
+    Err(Malformed::Wrong(format!("a map of {} x {} cells with {cells} values", info.width(), info.height())))
+}
+
+/// A `nav_msgs/OccupancyGrid`. An orientation of the origin of all zeros, which is what a
+/// message has when nobody filled it in, is none.
 ///
 /// # Errors
 /// [`Malformed`] when it is cut, or no map.
 pub fn map(bytes: &[u8]) -> Result<MapMessage, Malformed> {
     let mut cursor = Cursor::new(bytes);
-    let header = cursor.header()?;
-    cursor.time("map_load_time")?;
-    let resolution = cursor.f32("resolution")?;
-    let (width, height) = (cursor.u32("width")?, cursor.u32("height")?);
-    let origin = cursor.pose()?;
-    // 0.05 is a little more than 0.05 in 32 bits: the shortest decimal is what was meant.
-    let resolution_m = resolution.to_string().parse().unwrap_or_else(|_| f64::from(resolution));
-    let wrong = |error: &dyn std::fmt::Display| Malformed::Wrong(error.to_string());
-    let info = GridInfo::new(width, height, resolution_m, origin).map_err(|error| wrong(&error))?;
-    let grid = OccupancyGrid::new(info, cursor.cells()?).map_err(|error| wrong(&error))?;
+    let (header, info) = cursor.map_head()?;
+    let grid = OccupancyGrid::new(info, cursor.cells()?).map_err(|error| Malformed::Wrong(error.to_string()))?;
     Ok(MapMessage { header, grid })
 }
 
@@ -171,35 +245,16 @@ pub fn transforms(bytes: &[u8]) -> Result<Vec<TransformSample>, Malformed> {
         .collect()
 }
 
-/// A `sensor_msgs/LaserScan`.
+/// A `sensor_msgs/LaserScan`. Where `range_max` tells no limit that can be, it is infinite
+/// ([`believable_limits`]).
 ///
 /// # Errors
 /// [`Malformed`] when it is cut, or its angles are no numbers.
 pub fn scan(bytes: &[u8]) -> Result<ScanMessage, Malformed> {
     let mut cursor = Cursor::new(bytes);
-    let header = cursor.header()?;
-    let angle_min = cursor.f32("angle_min")?;
-    cursor.f32("angle_max")?;
-    let angle_increment = cursor.f32("angle_increment")?;
-    cursor.f32("time_increment")?;
-    cursor.f32("scan_time")?;
-    let (range_min, range_max) = (cursor.f32("range_min")?, cursor.f32("range_max")?);
-    let count = cursor.count(4, "ranges")?;
-    let (ranges, _) = cursor.take(4 * count as u64, "ranges")?.as_chunks::<4>();
-    let ranges_m: Vec<f32> = ranges.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
-    let numbers = [angle_min, angle_increment, range_min, range_max];
-    if !numbers.iter().all(|number| number.is_finite()) {
-        return Err(Malformed::Wrong(format!("a scan with angles or limits that are not finite: {numbers:?}")));
-    }
-    let scan = LaserScan {
-        stamp_s: seconds(header.stamp),
-        angle_min_rad: f64::from(angle_min),
-        angle_increment_rad: f64::from(angle_increment),
-        range_min_m: f64::from(range_min),
-        range_max_m: f64::from(range_max),
-        ranges_m,
-    };
-    Ok(ScanMessage { header, scan })
+    let (header, scan, ranges) = cursor.scan_head()?;
+    let ranges_m = ranges.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+    Ok(ScanMessage { header, scan: LaserScan { ranges_m, ..scan } })
 }
 
 /// A `nav_msgs/Odometry`.

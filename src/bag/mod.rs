@@ -13,12 +13,16 @@ mod cursor;
 mod definitions;
 mod encode;
 mod input;
+mod links;
 mod message;
 mod playback;
 mod problems;
 mod reader;
 mod record;
+mod skew;
+mod span;
 mod summary;
+mod topics;
 mod writer;
 
 pub use action::{GoalMessage, ResultMessage, goal, result};
@@ -31,13 +35,16 @@ pub use encode::{
     clock_message, goal_message, map_message, marker_message, odometry_message, path_message, pose_message,
     result_message, scan_message, tf_message,
 };
+pub use links::FrameLink;
 pub use message::{
     Header, MapMessage, Odometry, PatchMessage, ScanMessage, StampedPose, clock, header, map, odometry, patch, path,
     pose, scan, transforms,
 };
 pub use playback::{Playback, PlayedMessage};
 pub use reader::{BagError, BagReader};
-pub use summary::{ChunkPlace, FrameLink, Summary, TopicSummary};
+pub use skew::Skew;
+pub use summary::{ChunkPlace, Summary};
+pub use topics::TopicSummary;
 pub use writer::BagWriter;
 
 /// Nanoseconds since 1970, as bags count time.

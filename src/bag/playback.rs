@@ -20,8 +20,10 @@ const MAX_OPEN_BYTES: usize = 96 << 20;
 pub struct PlayedMessage<'a> {
     /// Its topic and type.
     pub connection: &'a Arc<Connection>,
-    /// When it was recorded.
+    /// When it was recorded; a time that cannot be is the bag's begin or end.
     pub time: Nanos,
+    /// Whether it was recorded at a time that cannot be.
+    pub is_stray: bool,
     /// The message.
     pub data: &'a [u8],
 }
@@ -34,6 +36,9 @@ struct Open {
 /// Plays a bag.
 pub struct Playback<R> {
     reader: BagReader<R>,
+    /// From when to when times are believed.
+    start: Nanos,
+    end: Nanos,
     /// Still to be opened, the last first.
     places: Vec<ChunkPlace>,
     open: Vec<Open>,
@@ -50,7 +55,14 @@ impl<R: Read + Seek> Playback<R> {
         places.sort_by_key(|place| std::cmp::Reverse((place.start, place.offset)));
         let mut reader = BagReader::new(input)?;
         reader.know(&summary.connections);
-        Ok(Self { reader, places, open: Vec::new(), spare: Vec::new() })
+        Ok(Self {
+            reader,
+            start: summary.start,
+            end: summary.end.max(summary.start),
+            places,
+            open: Vec::new(),
+            spare: Vec::new(),
+        })
     }
 
     /// The time of the next message; `None` at the end.
@@ -58,6 +70,11 @@ impl<R: Read + Seek> Playback<R> {
     /// # Errors
     /// [`BagError`] when the file cannot be read.
     pub fn peek(&mut self) -> Result<Option<Nanos>, BagError> {
+        Ok(self.recorded()?.map(|time| time.clamp(self.start, self.end)))
+    }
+
+    /// The time at which the next message says that it was recorded.
+    fn recorded(&mut self) -> Result<Option<Nanos>, BagError> {
         loop {
             let earliest = self.open.iter().filter_map(Open::time).min();
             let bytes: usize = self.open.iter().map(|open| open.chunk.len()).sum();
@@ -82,16 +99,18 @@ impl<R: Read + Seek> Playback<R> {
     /// # Errors
     /// [`BagError`] when the file cannot be read.
     pub fn next_message(&mut self) -> Result<Option<PlayedMessage<'_>>, BagError> {
-        let Some(time) = self.peek()? else { return Ok(None) };
+        let Some(recorded) = self.recorded()? else { return Ok(None) };
         while let Some(done) = self.open.iter().position(|open| open.time().is_none()) {
             self.spare.push(self.open.remove(done).chunk);
         }
         self.spare.truncate(2);
-        let Some(open) = self.open.iter_mut().find(|open| open.time() == Some(time)) else { return Ok(None) };
+        let Some(open) = self.open.iter_mut().find(|open| open.time() == Some(recorded)) else { return Ok(None) };
         let Some(message) = open.chunk.messages.get(open.next) else { return Ok(None) };
         open.next += 1;
         let connection = self.reader.connections().get(&message.connection);
-        Ok(connection.map(|connection| PlayedMessage { connection, time, data: open.chunk.data(message) }))
+        let time = recorded.clamp(self.start, self.end);
+        let (is_stray, data) = (time != recorded, open.chunk.data(message));
+        Ok(connection.map(|connection| PlayedMessage { connection, time, is_stray, data }))
     }
 }
 

@@ -51,7 +51,7 @@ fn decode_all(bytes: &[u8]) -> Result<(Summary, u64), BagError> {
     let summary = Summary::of(Bytes::new(bytes))?;
     let mut playback = Playback::new(Bytes::new(bytes), &summary)?;
     let (mut last, mut count) = (0, 0);
-    while let Some(PlayedMessage { connection, time, data }) = playback.next_message()? {
+    while let Some(PlayedMessage { connection, time, data, .. }) = playback.next_message()? {
         // In a damaged bag, a connection can be found that a first look did not know.
         let is_whole = summary.problems.is_empty();
         assert!(time >= last || !is_whole, "messages come in the order of time");
@@ -127,7 +127,7 @@ fn messages_come_back() {
     let grid = OccupancyGrid::new(info, vec![-1, 0, 100, 25, 50, 75]).unwrap();
     let bytes = map_message(&header_in, &grid);
     let back = map(&bytes).unwrap().grid;
-    assert_eq!((back.data(), back.info().resolution_m()), (grid.data(), 0.05));
+    assert_eq!((back.data(), back.info().resolution_m()), (grid.data(), f64::from(0.05_f32)));
     for length in 0..bytes.len() {
         assert!(map(&bytes[..length]).is_err(), "{length}");
     }

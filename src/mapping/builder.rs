@@ -4,15 +4,20 @@ use super::field::LikelihoodField;
 use super::matcher::{Match, Prior, match_scan};
 use crate::geometry::{Point, Pose, shortest_angle};
 use crate::grid::OccupancyGrid;
-use crate::scan::{LaserScan, Reading};
+use crate::scan::{BEYOND_ALL_LIDARS_M, LaserScan, Reading};
 use crate::sim::{Mapper, MapperConfig, MapperError};
+
+/// How far a lidar is believed where nobody says otherwise, metres: a map of all that lies
+/// within is some 2000 cells to each side of the robot.
+const REACH_M: f64 = 100.0;
 
 /// How a map is made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BuilderConfig {
     /// The mapper.
     pub mapper: MapperConfig,
-    /// Readings beyond this many metres only clear, up to there.
+    /// Readings beyond this many metres only clear, up to there; when infinite, beyond the
+    /// lidar's limit or 100 m.
     pub max_range_m: f64,
     /// Whether scans are matched; else odometry is believed.
     pub is_matching: bool,
@@ -110,16 +115,40 @@ impl MapBuilder {
         Ok(pose)
     }
 
-    /// The scan up to the longest range that is believed. A reading at `range_max` itself is
-    /// what drivers from before REP 117 tell where nothing is.
+    /// Whether a scan tells anything of the map.
+    #[must_use]
+    pub fn can_use(&self, scan: &LaserScan) -> bool {
+        let range_max_m = self.range_max_m(scan);
+        let is_near = |range_m: f64| range_m >= scan.range_min_m && range_m <= range_max_m;
+        scan.ranges_m.iter().map(|&range| self.cut(scan, range)).any(|cut| cut == f32::INFINITY || is_near(cut.into()))
+    }
+
+    /// The longest range that is believed, metres.
+    fn range_max_m(&self, scan: &LaserScan) -> f64 {
+        let reach_m = if self.config.max_range_m.is_finite() { self.config.max_range_m } else { REACH_M };
+        scan.range_max_m.min(reach_m)
+    }
+
+    /// The scan up to the longest range that is believed.
     fn limited(&self, scan: &LaserScan) -> LaserScan {
-        let nothing_m = scan.range_max_m * (1.0 - 1e-4);
-        let range_max_m = scan.range_max_m.min(self.config.max_range_m);
-        let cut = |&range: &f32| {
-            let is_clear = f64::from(range) >= nothing_m || f64::from(range) > range_max_m;
-            if is_clear && f64::from(range) <= scan.range_max_m { f32::INFINITY } else { range }
-        };
-        LaserScan { range_max_m, ranges_m: scan.ranges_m.iter().map(cut).collect(), ..scan.clone() }
+        let ranges_m = scan.ranges_m.iter().map(|&range| self.cut(scan, range)).collect();
+        LaserScan { range_max_m: self.range_max_m(scan), ranges_m, ..*scan }
+    }
+
+    /// A range as the map takes it. One at `range_max` itself is what drivers from before
+    /// REP 117 tell where nothing is. Where the lidar tells no limit, a ray that saw nothing
+    /// tells nothing, unless the user says how far it reaches.
+    fn cut(&self, scan: &LaserScan, range: f32) -> f32 {
+        let range_m = f64::from(range);
+        let is_limited = scan.range_max_m.is_finite() || self.config.max_range_m.is_finite();
+        let is_clear = range_m >= scan.range_max_m * (1.0 - 1e-4) || range_m > self.range_max_m(scan);
+        if range_m == f64::INFINITY && !is_limited || range_m.is_finite() && range_m >= BEYOND_ALL_LIDARS_M {
+            f32::NAN
+        } else if is_clear && range_m <= scan.range_max_m {
+            f32::INFINITY
+        } else {
+            range
+        }
     }
 
     /// The hits in the robot's frame, thinned evenly.
@@ -167,6 +196,29 @@ mod tests {
         let map = builder.map().unwrap().unwrap();
         let occupied = |i: &usize| map.state(map.info().cell(*i), &Thresholds::default()) == CellState::Occupied;
         (error_m, (0..map.info().len()).filter(occupied).count())
+    }
+
+    #[test]
+    fn a_lidar_without_a_limit_maps_what_it_measures() {
+        let built = |range_max_m: f64, max_range_m: f64, ranges_m: Vec<f32>| {
+            let mut builder = MapBuilder::new(BuilderConfig { max_range_m, ..BuilderConfig::default() });
+            let scan =
+                LaserScan { angle_increment_rad: 0.1, range_min_m: 0.1, range_max_m, ranges_m, ..Default::default() };
+            let can_use = builder.can_use(&scan);
+            builder.add(&Pose::default(), &Pose::default(), &scan).unwrap();
+            let map = builder.map().unwrap().unwrap();
+            (can_use, map.info().width(), map.census(&Thresholds::default()).known())
+        };
+        let (inf, nan) = (f32::INFINITY, f32::NAN);
+        let (can_use, width, known) = built(f64::INFINITY, f64::INFINITY, vec![2.0, inf, nan, -inf, 1e30, 2.0]);
+        assert!(can_use && width < 300 && known > 50, "{width} {known}");
+        // It tells how far nothing is only where the user does.
+        assert!(built(f64::INFINITY, 4.0, vec![inf; 6]).2 > 100);
+        for nothing in [vec![inf; 6], vec![nan; 6], vec![-inf; 6], vec![0.0; 6], Vec::new()] {
+            assert_eq!((built(f64::INFINITY, f64::INFINITY, nothing).0, built(8.0, 8.0, vec![nan]).0), (false, false));
+        }
+        // A limit that no map holds clears up to what it can hold.
+        assert!(built(900.0, f64::INFINITY, vec![inf; 3]).1 < 5000);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Which topics and frames of a bag are the explorer's inputs: as the user says, and else
 //! as their types and names tell.
 
-use super::guess::{base_frame, best, frames, map_frame, map_rank, odom_frame};
+use super::guess::{base_frame, best, frames, is_connected, map_frame, map_rank, odom_frame, odometry_root, root};
+use super::verdict::Verdict;
 use crate::bag::{MessageType, Summary};
 use crate::tf::frame_name;
 use serde::Serialize;
@@ -59,9 +60,10 @@ pub struct Inputs {
     pub results_topic: Option<String>,
     /// The map's frame; without a map, the one that odometry is in.
     pub map_frame: Option<String>,
-    /// The robot's frame.
+    /// The robot's frame, be it below the map's or not.
     pub base_frame: Option<String>,
-    /// The frame that the wheels' odometry is in: `odom` above the robot, or the map's.
+    /// The frame that the wheels' odometry is in: `odom` above the robot, or the map's, or
+    /// the top of the robot's tree.
     pub odom_frame: Option<String>,
 }
 
@@ -93,9 +95,18 @@ impl Inputs {
         };
         let base_frame = match &wanted.pose_frame {
             Some(frame) => Some(known(&frames, frame)?),
-            None => map_frame.as_deref().and_then(|map| base_frame(summary, map)),
+            // A map that nobody localised in leaves the robot to odometry.
+            None => [map_frame.as_deref(), odometry_root(summary)]
+                .into_iter()
+                .flatten()
+                .find_map(|top| base_frame(summary, top)),
         };
-        let odom_frame = base_frame.as_deref().and_then(|base| odom_frame(summary, base)).or_else(|| map_frame.clone());
+        let odom_frame = match (&base_frame, &map_frame) {
+            (Some(base), map) => odom_frame(summary, base)
+                .or_else(|| map.clone().filter(|map| is_connected(summary, map, base)))
+                .or_else(|| Some(root(summary, base).to_owned())),
+            (None, map) => map.clone(),
+        };
         Ok(Self { map_topic, updates_topic, scan_topic, goal_topic, results_topic, map_frame, base_frame, odom_frame })
     }
 
@@ -105,39 +116,10 @@ impl Inputs {
         self.map_frame.clone_from(&self.odom_frame);
     }
 
-    /// Whether there is enough for a replay.
+    /// What can be done with them.
     #[must_use]
-    pub const fn can_replay(&self) -> bool {
-        (self.map_topic.is_some() || self.scan_topic.is_some()) && self.map_frame.is_some() && self.base_frame.is_some()
-    }
-
-    /// What can be done with them, a sentence each.
-    #[must_use]
-    pub fn verdict(&self) -> Vec<String> {
-        let mut says = Vec::new();
-        let replayed = match (&self.map_topic, &self.scan_topic, &self.map_frame, &self.base_frame) {
-            (Some(map), _, Some(frame), Some(base)) => {
-                let updates = if self.updates_topic.is_some() { " with its updates" } else { "" };
-                format!("frontier replay: yes, with the map on {map}{updates} and the robot as {base} in {frame}")
-            }
-            (None, Some(scan), Some(frame), Some(base)) => format!(
-                "frontier replay: yes, with a map made of the scans on {scan}, and the robot as {base} in {frame}"
-            ),
-            (None, None, ..) => "frontier replay: no, there is neither a map nor a scan".to_owned(),
-            _ => "frontier replay: no, tf has nothing that leads from the map to the robot".to_owned(),
-        };
-        says.push(replayed);
-        says.push(match (&self.scan_topic, &self.map_frame, &self.base_frame) {
-            (Some(scan), Some(_), Some(base)) => {
-                format!("frontier map build: yes, with the scans on {scan} and {base}")
-            }
-            (None, ..) => "frontier map build: no, there are no scans".to_owned(),
-            _ => "frontier map build: no, tf tells no odometry".to_owned(),
-        });
-        if let Some(goals) = &self.goal_topic {
-            says.push(format!("decisions are compared with the goals on {goals}"));
-        }
-        says
+    pub fn verdict(&self, summary: &Summary) -> Verdict {
+        Verdict::of(summary, self)
     }
 }
 
@@ -180,9 +162,15 @@ mod tests {
             md5: kind.md5().to_owned(),
             messages,
             frames: [frame.to_owned()].into(),
+            frame: frame.to_owned(),
             ..TopicSummary::default()
         };
-        let link = |parent: &str, is_static| FrameLink { parent: parent.to_owned(), is_static, messages: 10 };
+        let link = |parent: &str, is_static| FrameLink {
+            parent: parent.to_owned(),
+            is_static,
+            messages: 10,
+            ..FrameLink::default()
+        };
         Summary {
             topics: vec![
                 topic("/move_base/global_costmap/costmap", MessageType::Map, 99, "map"),
@@ -216,7 +204,7 @@ mod tests {
             odom_frame: Some("odom".into()),
         };
         assert_eq!(inputs, expected);
-        assert!(inputs.verdict()[0].starts_with("frontier replay: yes"));
+        assert!(inputs.verdict(&summary()).sentences()[0].starts_with("frontier replay: yes"));
     }
 
     #[test]
@@ -235,6 +223,6 @@ mod tests {
         scans.topics.retain(|t| t.topic.ends_with("scan"));
         let inputs = Inputs::of(&scans, &Wanted::default()).unwrap();
         assert_eq!((inputs.map_frame.as_deref(), inputs.map_topic.is_none()), (Some("odom"), true));
-        assert!(inputs.verdict()[1].starts_with("frontier map build: yes"));
+        assert!(inputs.verdict(&scans).sentences()[1].starts_with("frontier map build: yes"));
     }
 }

@@ -1,6 +1,9 @@
 //! What is known at a moment of a recording: map, frames, newest scan, goals.
 
 use super::Inputs;
+use super::clock::Clock;
+use super::faults::Faults;
+use super::frames::Frames;
 use super::goals::RecordedGoals;
 use super::scans::{ScanMapping, on_robot};
 use super::told::Told;
@@ -11,18 +14,12 @@ use crate::mapping::{BuilderConfig, MapperError};
 use crate::robot::{MapSnapshot, PoseError};
 use crate::scan::LaserScan;
 
-use crate::tf::{TransformBuffer, TransformSample, frame_name, planar, upright};
+use crate::tf::{frame_name, planar, upright};
 use std::io::{Read, Seek};
 use std::sync::Arc;
 
-/// How far back transforms are remembered, seconds.
-const HISTORY_S: f64 = 10.0;
-/// A transform that is older than this is not believed, seconds.
-const TOLERANCE_S: f64 = 0.5;
 /// From one map that is made of scans to the next, seconds at the least.
 const MAP_PERIOD_S: f64 = 1.0;
-/// Headers of another clock than the recorder's differ by more than this, seconds.
-const CLOCKS_DIFFER_S: f64 = 5.0;
 
 /// Is handed every message as it is played.
 pub type Tap = Box<dyn FnMut(&PlayedMessage<'_>)>;
@@ -44,15 +41,13 @@ pub struct Player<R> {
     /// The bag's begin, seconds since 1970.
     begin_s: f64,
     inputs: Inputs,
-    transforms: TransformBuffer,
-    /// Header time minus recorded time, seconds, where the clocks differ.
-    offset_s: Option<f64>,
+    frames: Frames,
     map: Option<MapSnapshot>,
     scan: Option<ScanMessage>,
     goals: RecordedGoals,
     /// Makes the map where the recording has none.
     mapping: Option<ScanMapping>,
-    malformed: u64,
+    faults: Faults,
     tap: Option<Tap>,
 }
 
@@ -67,12 +62,11 @@ impl<R: Read + Seek> Player<R> {
             begin_s: seconds(summary.start),
             goals: RecordedGoals::new(inputs.results_topic.is_some()),
             mapping: None,
+            frames: Frames::new(summary, Clock::of(summary, &inputs)),
             inputs,
-            transforms: TransformBuffer::new(HISTORY_S),
-            offset_s: None,
             map: None,
             scan: None,
-            malformed: 0,
+            faults: Faults::default(),
             tap: None,
         })
     }
@@ -84,9 +78,10 @@ impl<R: Read + Seek> Player<R> {
 
     /// Makes a map of the scans from now on, and does not look at recorded ones. Without
     /// odometry there will be none.
-    pub fn map_scans(&mut self, config: BuilderConfig) {
+    pub fn map_scans(&mut self, config: BuilderConfig, summary: &Summary) {
         self.mapping = ScanMapping::new(config, &self.inputs);
         self.inputs.forget_map();
+        self.frames.clock = Clock::of(summary, &self.inputs);
     }
 
     /// Plays all messages up to a time, but no further than a map or a result:
@@ -100,6 +95,9 @@ impl<R: Read + Seek> Player<R> {
             if self.play_one()? {
                 return Ok(self.since_begin_s(time));
             }
+        }
+        if self.playback.peek()?.is_none() {
+            self.take_scans(until_s, f64::INFINITY)?;
         }
         Ok(until_s)
     }
@@ -119,24 +117,30 @@ impl<R: Read + Seek> Player<R> {
             tap(&message);
         }
         let told = Told::of(&self.inputs, message.connection, message.data);
-        let time_s = seconds(message.time) - self.begin_s;
+        let (time_s, is_stray) = (seconds(message.time) - self.begin_s, message.is_stray);
+        let topic = Arc::clone(message.connection);
         match told {
             None => Ok(false),
             Some(Ok(told)) => {
                 let is_news = matches!(told, Told::Map(_) | Told::Patch(_) | Told::Result(_));
-                self.learn(told, time_s)?;
+                self.learn(told, &topic.topic, time_s, is_stray)?;
                 Ok(is_news)
             }
-            Some(Err(_)) => {
-                self.malformed += 1;
+            Some(Err(error)) => {
+                self.faults.count(&topic.topic, error);
                 Ok(false)
             }
         }
     }
 
-    fn learn(&mut self, told: Told, time_s: f64) -> Result<(), PlayError> {
+    fn learn(&mut self, told: Told, topic: &str, time_s: f64, is_stray: bool) -> Result<(), PlayError> {
         match told {
-            Told::Transforms { samples, is_static } => self.learn_transforms(samples, is_static, time_s),
+            Told::Transforms { samples, is_static: true } => self.frames.learn_fixed(&samples),
+            Told::Transforms { samples, .. } => {
+                if let Err(reason) = self.frames.learn_moving(samples, time_s, is_stray) {
+                    self.faults.count(topic, reason);
+                }
+            }
             Told::Map(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
                 self.map = Some(MapSnapshot {
@@ -151,7 +155,9 @@ impl<R: Read + Seek> Player<R> {
                 if let Some(map) = &mut self.map {
                     map.stamp_s = stamp_s;
                     map.version += 1;
-                    self.malformed += u64::from(Arc::make_mut(&mut map.grid).apply(&message.patch).is_err());
+                    if let Err(error) = Arc::make_mut(&mut map.grid).apply(&message.patch) {
+                        self.faults.count(topic, error);
+                    }
                 }
             }
             Told::Scan(message) => self.learn_scan(message, time_s)?,
@@ -167,28 +173,6 @@ impl<R: Read + Seek> Player<R> {
         Ok(())
     }
 
-    fn learn_transforms(&mut self, samples: Vec<TransformSample>, is_static: bool, time_s: f64) {
-        for mut sample in samples {
-            let is_stamped = sample.stamp_s > 0.0;
-            sample.stamp_s -= self.begin_s;
-            if !is_static && is_stamped {
-                self.learn_clock(sample.stamp_s - time_s);
-            }
-            // What cannot be a transform is left out, as tf2 does.
-            let _ = self.transforms.insert(&sample, is_static);
-        }
-    }
-
-    /// Another clock's difference is that of the latest stamps: some nodes stamp ahead of
-    /// their time.
-    fn learn_clock(&mut self, difference_s: f64) {
-        let differs = difference_s.abs() > CLOCKS_DIFFER_S;
-        let offset_s = self.offset_s.get_or_insert(if differs { difference_s } else { 0.0 });
-        if differs && (*offset_s - difference_s).abs() <= CLOCKS_DIFFER_S {
-            *offset_s = offset_s.min(difference_s);
-        }
-    }
-
     fn since_begin_s(&self, time: Nanos) -> f64 {
         seconds(time) - self.begin_s
     }
@@ -200,30 +184,41 @@ impl<R: Read + Seek> Player<R> {
 
     /// Keeps a scan, and takes it into the map that is made here.
     fn learn_scan(&mut self, mut message: ScanMessage, time_s: f64) -> Result<(), PlayError> {
-        message.scan.stamp_s -= self.begin_s;
+        message.scan.stamp_s -= self.begin_s + self.frames.clock.scans_s();
         if let Some(mapping) = &mut self.mapping {
-            let taken = mapping.add(message.clone(), &self.transforms)?;
-            let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
-            if taken > 0
-                && is_due
-                && let Some(grid) = mapping.map()
-            {
-                self.map = Some(MapSnapshot {
-                    stamp_s: time_s,
-                    version: self.next_version(),
-                    grid: Arc::new(grid),
-                    costmap: None,
-                });
-            }
+            let now_s = self.frames.now_s(time_s);
+            let taken = mapping.add(message.clone(), &self.frames.transforms, now_s)?;
+            self.show_mapped(taken, time_s);
         }
         self.scan = Some(message);
         Ok(())
     }
 
+    /// Takes in the scans that still wait, at a time by the clock of the stamps.
+    fn take_scans(&mut self, time_s: f64, now_s: f64) -> Result<(), PlayError> {
+        if let Some(mapping) = &mut self.mapping {
+            let taken = mapping.settle(&self.frames.transforms, now_s)?;
+            self.show_mapped(taken, time_s);
+        }
+        Ok(())
+    }
+
+    /// Shows the map that is made here, if it grew and its time has come.
+    fn show_mapped(&mut self, taken: usize, time_s: f64) {
+        let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
+        if taken > 0
+            && is_due
+            && let Some(grid) = self.mapping.as_ref().and_then(ScanMapping::map)
+        {
+            let version = self.next_version();
+            self.map = Some(MapSnapshot { stamp_s: time_s, version, grid: Arc::new(grid), costmap: None });
+        }
+    }
+
     /// The time of a header by the recording's clock where that can be, else when it was
     /// recorded.
     fn stamp_s(&self, header: Nanos, recorded_s: f64) -> f64 {
-        let header_s = self.since_begin_s(header) - self.offset_s.unwrap_or(0.0);
+        let header_s = self.since_begin_s(header) - self.frames.clock.offset_s();
         if (0.0..=30.0).contains(&(recorded_s - header_s)) { header_s } else { recorded_s }
     }
 
@@ -232,7 +227,7 @@ impl<R: Read + Seek> Player<R> {
         if frame_name(frame) == frame_name(map_frame) || frame.is_empty() {
             return Some(self.corrected(*pose));
         }
-        let there = self.transforms.latest(map_frame, frame).ok()?;
+        let there = self.frames.transforms.latest(map_frame, frame).ok()?;
         Some(self.corrected(planar(&(there.transform * upright(pose)))))
     }
 
@@ -248,16 +243,8 @@ impl<R: Read + Seek> Player<R> {
     pub fn pose(&self, now_s: f64) -> Result<Pose, PoseError> {
         let name = |frame: &Option<String>| frame.clone().unwrap_or_else(|| "(none)".to_owned());
         let (map_frame, base_frame) = (name(&self.inputs.map_frame), name(&self.inputs.base_frame));
-        match self.transforms.latest(&map_frame, &base_frame) {
-            Err(why) => Err(PoseError::NotYet { map_frame, base_frame, why: why.to_string() }),
-            Ok(newest) => {
-                let age_s = now_s + self.offset_s.unwrap_or(0.0) - newest.stamp_s;
-                if age_s > TOLERANCE_S {
-                    return Err(PoseError::Stale { map_frame, base_frame, age_s, limit_s: TOLERANCE_S });
-                }
-                Ok(self.corrected(planar(&newest.transform)))
-            }
-        }
+        let newest = self.frames.robot(&map_frame, &base_frame, now_s)?;
+        Ok(self.corrected(planar(&newest.transform)))
     }
 
     /// The newest map.
@@ -288,13 +275,19 @@ impl<R: Read + Seek> Player<R> {
     #[must_use]
     pub fn scan(&self, robot_in_map: &Pose) -> Option<(Pose, Arc<LaserScan>)> {
         let base = self.inputs.base_frame.as_deref()?;
-        let (mount, scan) = on_robot(&self.transforms, base, self.scan.as_ref()?)?;
+        let (mount, scan) = on_robot(&self.frames.transforms, base, self.scan.as_ref()?).ok()?;
         Some((robot_in_map.compose(&mount), Arc::new(scan)))
     }
 
-    /// Messages so far that were not what their types say, or updates that did not fit.
+    /// Messages so far that could not be used.
     #[must_use]
-    pub const fn malformed(&self) -> u64 {
-        self.malformed
+    pub const fn faults(&self) -> &Faults {
+        &self.faults
+    }
+
+    /// The inputs that are played.
+    #[must_use]
+    pub const fn inputs(&self) -> &Inputs {
+        &self.inputs
     }
 }

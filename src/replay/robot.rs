@@ -11,7 +11,7 @@ use super::goals::{GoalEnd, RecordedGoals};
 use super::player::{PlayError, Player};
 use crate::bag::Summary;
 use crate::geometry::{Pose, shortest_angle};
-use crate::robot::{Command, Navigation, NavigationState, Observation, Robot, RobotError};
+use crate::robot::{Command, Navigation, NavigationState, Observation, PoseError, Robot, RobotError};
 use std::io::{Read, Seek};
 
 /// From one look to the next, seconds, as `explore_node` has it.
@@ -24,6 +24,8 @@ const OWN_WAY_S: f64 = 10.0;
 pub(super) const SAME_M: f64 = 0.5;
 /// The recording may decide the same so much earlier or later than we, seconds.
 pub(super) const LAG_S: f64 = 2.0;
+/// A silence longer than this is passed over, seconds: it may last for years.
+const SILENCE_S: f64 = 60.0;
 /// A recording that turned less than this in [`LAG_S`] does not turn, radians.
 const STANDS_RAD: f64 = 0.1;
 
@@ -59,6 +61,10 @@ pub struct BagRobot<R> {
     distance_m: f64,
     turned_rad: f64,
     has_begun: bool,
+    /// How much silence was passed over, seconds.
+    skipped_s: f64,
+    /// Why there is no pose, when last looked.
+    no_pose: Option<PoseError>,
 }
 
 impl<R: Read + Seek> BagRobot<R> {
@@ -66,7 +72,18 @@ impl<R: Read + Seek> BagRobot<R> {
     #[must_use]
     pub fn new(player: Player<R>, summary: &Summary, until_s: Option<f64>) -> Self {
         let end_s = until_s.map_or(summary.duration_s(), |until_s| until_s.min(summary.duration_s()));
-        Self { player, end_s, now_s: 0.0, task: None, pose: None, distance_m: 0.0, turned_rad: 0.0, has_begun: false }
+        Self {
+            player,
+            end_s,
+            now_s: 0.0,
+            task: None,
+            pose: None,
+            distance_m: 0.0,
+            turned_rad: 0.0,
+            has_begun: false,
+            skipped_s: 0.0,
+            no_pose: None,
+        }
     }
 
     /// What plays the bag.
@@ -111,26 +128,44 @@ impl<R: Read + Seek> BagRobot<R> {
         self.has_begun
     }
 
+    /// Silence that was passed over so far, seconds.
+    #[must_use]
+    pub const fn skipped_s(&self) -> f64 {
+        self.skipped_s
+    }
+
+    /// Why there was no pose, when that was looked for last.
+    #[must_use]
+    pub const fn no_pose(&self) -> Option<&PoseError> {
+        self.no_pose.as_ref()
+    }
+
     /// To the next tick, or to what wakes the node before.
     fn look(&mut self) -> Result<Observation, RobotError> {
+        self.skip_silence(SILENCE_S)?;
         let now_s = self.player.play_to(self.now_s + TICK_S).map_err(|error| unreadable(&error))?.max(self.now_s);
         if now_s > self.end_s {
             return Err(RobotError::Ended);
         }
         self.now_s = now_s;
         let pose_in_map = self.player.pose(now_s);
-        if let Ok(pose) = &pose_in_map {
-            self.follow(pose);
+        match &pose_in_map {
+            Ok(pose) => self.follow(pose),
+            Err(error) => self.no_pose = Some(error.clone()),
         }
         let scan = pose_in_map.as_ref().ok().and_then(|pose| self.player.scan(pose));
         let (map, navigation) = (self.player.map().cloned(), self.navigation());
         Ok(Observation { stamp_s: now_s, pose_in_map, map, scan, navigation })
     }
 
-    /// Goes on to the tick before the next message, be it years away.
-    fn skip_silence(&mut self) -> Result<(), RobotError> {
-        if let Some(next_s) = self.player.next_time_s().map_err(|error| unreadable(&error))? {
-            self.now_s = self.now_s.max(next_s - TICK_S);
+    /// Goes on to the tick before the next message, be it years away, when nothing comes for
+    /// longer than some seconds.
+    fn skip_silence(&mut self, longer_than_s: f64) -> Result<(), RobotError> {
+        let next_s = self.player.next_time_s().map_err(|error| unreadable(&error))?;
+        if let Some(next_s) = next_s.filter(|next_s| next_s - self.now_s > longer_than_s) {
+            let before_s = (next_s.min(self.end_s) - TICK_S).max(self.now_s);
+            self.skipped_s += before_s - self.now_s;
+            self.now_s = before_s;
         }
         Ok(())
     }
@@ -209,7 +244,7 @@ impl<R: Read + Seek> Robot for BagRobot<R> {
             if self.has_begun {
                 return Ok(observation);
             }
-            self.skip_silence()?;
+            self.skip_silence(0.0)?;
         }
     }
 

@@ -7,7 +7,7 @@ use super::msg::std_msgs::Header;
 use super::msg::{map_msgs, nav_msgs, sensor_msgs, tf2_msgs};
 use crate::geometry::{Path, Pose, Twist};
 use crate::grid::{Cell, GridError, GridInfo, GridInfoError, GridPatch, OccupancyGrid};
-use crate::scan::LaserScan;
+use crate::scan::{LaserScan, believable_limits};
 use crate::tf::TransformSample;
 
 /// A map message that is no map.
@@ -145,12 +145,13 @@ pub fn scan(message: &sensor_msgs::LaserScan, is_upside_down: bool) -> LaserScan
     let first = f64::from(message.angle_min);
     let increment = f64::from(message.angle_increment);
     let (angle_min_rad, angle_increment_rad) = if is_upside_down { (-first, -increment) } else { (first, increment) };
+    let (range_min_m, range_max_m) = believable_limits(message.range_min, message.range_max);
     LaserScan {
         stamp_s: seconds(&message.header.stamp),
         angle_min_rad,
         angle_increment_rad,
-        range_min_m: f64::from(message.range_min),
-        range_max_m: f64::from(message.range_max),
+        range_min_m,
+        range_max_m,
         ranges_m: message.ranges.clone(),
     }
 }

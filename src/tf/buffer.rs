@@ -91,12 +91,6 @@ impl TransformBuffer {
     /// [`RejectedTransform`] for what cannot be a transform; the buffer is as before.
     pub fn insert(&mut self, sample: &TransformSample, is_static: bool) -> Result<(), RejectedTransform> {
         let (parent, child) = (frame_name(&sample.parent), frame_name(&sample.child));
-        if parent.is_empty() || child.is_empty() {
-            return Err(RejectedTransform::Nameless { parent: sample.parent.clone(), child: sample.child.clone() });
-        }
-        if parent == child {
-            return Err(RejectedTransform::OwnParent(child.to_owned()));
-        }
         let transform = sample.isometry()?;
         if !self.links.contains_key(child) {
             if self.links.len() >= MAX_FRAMES {

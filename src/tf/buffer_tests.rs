@@ -80,6 +80,11 @@ fn garbage_is_turned_away_and_circles_end() {
     assert!(buffer.insert(&sample("a", "b", 0.0, f64::NAN, 0.0), false).is_err());
     let no_rotation = TransformSample { rotation_xyzw: [0.0; 4], ..sample("a", "b", 0.0, 0.0, 0.0) };
     assert!(buffer.insert(&no_rotation, false).is_err());
+    let too_long = TransformSample { rotation_xyzw: [0.0, 0.0, 0.0, 1.01], ..sample("a", "b", 0.0, 0.0, 0.0) };
+    let error = buffer.insert(&too_long, false).unwrap_err().to_string();
+    assert_eq!(error, "the rotation from a to b is no unit quaternion: its norm is 1.010, must be 1");
+    let rounded = TransformSample { rotation_xyzw: [0.0, 0.0, 0.0, 1.004], ..sample("c", "d", 0.0, 0.0, 0.0) };
+    assert!(buffer.insert(&rounded, false).is_ok(), "tf2 lets 1 % of the square pass");
     buffer.insert(&sample("a", "b", 0.0, 0.0, 0.0), false).unwrap();
     buffer.insert(&sample("b", "a", 0.0, 0.0, 0.0), false).unwrap();
     assert_eq!(buffer.latest("a", "b").unwrap_err(), TransformError::Circle("a".to_owned()));

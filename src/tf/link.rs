@@ -1,11 +1,14 @@
 //! One frame in its parent over time.
 
+use super::frame_name;
 use crate::geometry::Pose;
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 use std::collections::VecDeque;
 
 /// The most samples that are kept of one frame: ten seconds at 400 Hz.
 const MAX_SAMPLES: usize = 4000;
+/// The squared norm of a rotation may differ from 1 by less than this, as in tf2.
+const NORM_TOLERANCE: f64 = 10e-3;
 
 /// A transform as it arrives: where `child` is in `parent`.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +21,7 @@ pub struct TransformSample {
     pub stamp_s: f64,
     /// Metres.
     pub translation_m: [f64; 3],
-    /// A quaternion x, y, z, w; it need not be normalised.
+    /// A quaternion x, y, z, w of norm 1, or as near to it as tf2 asks for.
     pub rotation_xyzw: [f64; 4],
 }
 
@@ -52,12 +55,22 @@ pub enum RejectedTransform {
     #[error("the frame {0} is its own parent")]
     OwnParent(String),
     /// Numbers that are none.
-    #[error("the transform from {parent} to {child} holds numbers that cannot be: must be finite, the rotation not 0")]
+    #[error("the transform from {parent} to {child} holds numbers that are not finite")]
     NotFinite {
         /// The parent.
         parent: String,
         /// The child.
         child: String,
+    },
+    /// A quaternion that is no rotation.
+    #[error("the rotation from {parent} to {child} is no unit quaternion: its norm is {norm:.3}, must be 1")]
+    NotNormalised {
+        /// The parent.
+        parent: String,
+        /// The child.
+        child: String,
+        /// What its norm is.
+        norm: f64,
     },
     /// More frames than a robot has.
     #[error("the transform to {child} is one frame too many: at most {limit} are kept")]
@@ -70,16 +83,38 @@ pub enum RejectedTransform {
 }
 
 impl TransformSample {
+    /// Whether tf2 takes it in: both frames have names, which differ, all numbers are finite
+    /// and the rotation is a unit quaternion (`BufferCore::setTransform`).
+    ///
+    /// # Errors
+    /// [`RejectedTransform`] with the first thing that is wrong.
+    pub fn check(&self) -> Result<(), RejectedTransform> {
+        let (parent, child) = (frame_name(&self.parent), frame_name(&self.child));
+        let names = || (parent.to_owned(), child.to_owned());
+        if parent.is_empty() || child.is_empty() {
+            return Err(RejectedTransform::Nameless { parent: self.parent.clone(), child: self.child.clone() });
+        }
+        if parent == child {
+            return Err(RejectedTransform::OwnParent(child.to_owned()));
+        }
+        let squared: f64 = self.rotation_xyzw.iter().map(|v| v * v).sum();
+        if !(self.stamp_s.is_finite() && squared.is_finite() && self.translation_m.iter().all(|v| v.is_finite())) {
+            let (parent, child) = names();
+            return Err(RejectedTransform::NotFinite { parent, child });
+        }
+        if (squared - 1.0).abs() >= NORM_TOLERANCE {
+            let (parent, child) = names();
+            return Err(RejectedTransform::NotNormalised { parent, child, norm: squared.sqrt() });
+        }
+        Ok(())
+    }
+
     /// The transform itself.
     pub(super) fn isometry(&self) -> Result<Isometry3<f64>, RejectedTransform> {
-        let [x, y, z] = self.translation_m;
-        let [i, j, k, w] = self.rotation_xyzw;
-        let rotation = Quaternion::new(w, i, j, k);
-        let finite = [x, y, z, self.stamp_s].iter().all(|v| v.is_finite()) && rotation.norm().is_finite();
-        if !finite || rotation.norm() < 1e-6 {
-            return Err(RejectedTransform::NotFinite { parent: self.parent.clone(), child: self.child.clone() });
-        }
-        Ok(Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_quaternion(rotation)))
+        self.check()?;
+        let ([x, y, z], [i, j, k, w]) = (self.translation_m, self.rotation_xyzw);
+        let rotation = UnitQuaternion::from_quaternion(Quaternion::new(w, i, j, k));
+        Ok(Isometry3::from_parts(Translation3::new(x, y, z), rotation))
     }
 }
 

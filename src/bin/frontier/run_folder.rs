@@ -6,7 +6,7 @@ use frontier_explorer::explore::ExplorerSettings;
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::OccupancyGrid;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
-use frontier_explorer::report::{Animation, FrameLog, HtmlReport, Picture, RunRecord, Theme};
+use frontier_explorer::report::{Animation, FrameLog, HtmlReport, Picture, ReportError, RunRecord, Theme};
 use std::path::{Path, PathBuf};
 
 /// A folder that exists, and the name of the animation in it.
@@ -34,7 +34,8 @@ impl RunFolder {
             .map(|name| self.path(name))
     }
 
-    /// Writes all results; the map first, as it is what the run was for.
+    /// Writes all results; the map first, as it is what the run was for. The files that were
+    /// written, the report first: where no frame was seen, there is no animation.
     pub fn write(
         &self,
         record: &RunRecord,
@@ -42,7 +43,7 @@ impl RunFolder {
         grid: &OccupancyGrid,
         end_in_map: Option<Pose>,
         settings: &ExplorerSettings,
-    ) -> anyhow::Result<()> {
+    ) -> anyhow::Result<Vec<PathBuf>> {
         save_map(&self.path("map.yaml"), grid, &SaveOptions::default())?;
         self.save("run.json", &record.to_json()?)?;
         let picture = Picture {
@@ -59,10 +60,18 @@ impl RunFolder {
         self.save("map.png", &map_png)?;
         let animation =
             Animation { thresholds: &settings.thresholds, trajectory: &trail.trajectory, theme: Theme::Clear };
-        let gif = animation.to_gif(trail.frames.iter().flat_map(FrameLog::frames))?;
-        self.save(self.animation, &gif)?;
-        let html = HtmlReport { run: record, map_png: &map_png, animation_gif: Some(&gif), theme: Theme::Clear };
-        self.save("report.html", html.to_html()?.as_bytes())
+        let gif = match animation.to_gif(trail.frames.iter().flat_map(FrameLog::frames)) {
+            Ok(gif) => Some(gif),
+            Err(ReportError::NoFrames) => None,
+            Err(error) => return Err(error.into()),
+        };
+        if let Some(gif) = &gif {
+            self.save(self.animation, gif)?;
+        }
+        let html = HtmlReport { run: record, map_png: &map_png, animation_gif: gif.as_deref(), theme: Theme::Clear };
+        self.save("report.html", html.to_html()?.as_bytes())?;
+        let animation = gif.is_none().then(|| self.path(self.animation));
+        Ok(self.files().filter(|path| Some(path) != animation.as_ref()).collect())
     }
 
     /// Writes one file.

@@ -4,7 +4,7 @@ use crate::exit::Outcome;
 use crate::output;
 use comfy_table::{CellAlignment, Table};
 use frontier_explorer::bag::{FrameLink, Summary, TopicSummary, seconds};
-use frontier_explorer::replay::{Inputs, Wanted};
+use frontier_explorer::replay::{Clock, Inputs, Wanted};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -40,6 +40,7 @@ struct Info<'a> {
     inputs: &'a Inputs,
     verdict: Vec<String>,
     problems: &'a [String],
+    notes: Vec<String>,
 }
 
 #[derive(Serialize)]
@@ -75,8 +76,9 @@ fn info<'a>(summary: &'a Summary, inputs: &'a Inputs) -> Info<'a> {
         topics: &summary.topics,
         tf: &summary.tf,
         inputs,
-        verdict: inputs.verdict(),
+        verdict: inputs.verdict(summary).sentences(),
         problems: &summary.problems,
+        notes: summary.notes.iter().cloned().chain(Clock::of(summary, inputs).notes()).collect(),
     }
 }
 
@@ -91,16 +93,23 @@ fn compressed(summary: &Summary) -> impl Iterator<Item = Compressed> + '_ {
 
 fn print(summary: &Summary, inputs: &Inputs) -> anyhow::Result<()> {
     let kinds: Vec<String> = compressed(summary).map(|c| format!("{} chunks {}", c.chunks, c.kind)).collect();
+    let when = if summary.messages > 0 {
+        format!("{:.1} s from {:.3} s", summary.duration_s(), seconds(summary.start))
+    } else {
+        "empty".to_owned()
+    };
     output::line(format_args!(
-        "{:.1} s from {:.3} s, {} messages, {:.1} MB, {}",
-        summary.duration_s(),
-        seconds(summary.start),
+        "{when}, {} messages, {:.1} MB, {}",
         summary.messages,
         summary.bytes as f64 / 1e6,
         if kinds.is_empty() { "no chunks".to_owned() } else { kinds.join(", ") },
     ))?;
-    for problem in &summary.problems {
-        output::line(format_args!("warning: {problem}"))?;
+    super::warn(summary, inputs)?;
+    for topic in &summary.topics {
+        if let Some(fault) = &topic.first_fault {
+            let (malformed, name) = (topic.malformed, &topic.topic);
+            output::line(format_args!("warning: {malformed} messages on {name} are malformed; the first: {fault}"))?;
+        }
     }
     output::line(format_args!("\n{}", topics(summary)))?;
     output::line(format_args!("\nframes\n{}", tree(&summary.tf)))?;
@@ -114,7 +123,7 @@ fn print(summary: &Summary, inputs: &Inputs) -> anyhow::Result<()> {
         guess(&inputs.map_frame),
         guess(&inputs.base_frame),
     ))?;
-    for sentence in inputs.verdict() {
+    for sentence in inputs.verdict(summary).sentences() {
         output::line(format_args!("{sentence}"))?;
     }
     Ok(())
@@ -130,15 +139,16 @@ fn topics(summary: &Summary) -> Table {
     }
     for topic in &summary.topics {
         let mark = if topic.is_read { "*" } else { "" };
+        let shown = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.2}"));
         let frames: Vec<&str> = topic.frames.iter().map(String::as_str).collect();
         let damaged = if topic.malformed > 0 { format!(" ({} malformed)", topic.malformed) } else { String::new() };
         table.add_row([
             format!("{}{mark}", topic.topic),
             topic.kind.clone(),
             format!("{}{damaged}", topic.messages),
-            format!("{:.2}", topic.rate_hz),
-            format!("{:.2}", topic.longest_gap_s),
-            format!("{:.2}", topic.longest_gap_at_s - seconds(summary.start)),
+            shown(Some(topic.rate_hz).filter(|rate_hz| *rate_hz > 0.0)),
+            shown(topic.longest_gap_s),
+            shown(topic.longest_gap_at_s.map(|at_s| at_s - seconds(summary.start))),
             frames.join(", "),
         ]);
     }

@@ -3,9 +3,11 @@
 mod info;
 
 use crate::exit::Outcome;
+use crate::output;
 use anyhow::Context;
 use clap::Subcommand;
 use frontier_explorer::bag::Summary;
+use frontier_explorer::replay::{Clock, Inputs};
 use std::fs::File;
 use std::path::Path;
 
@@ -34,4 +36,11 @@ pub fn open(path: &Path) -> anyhow::Result<File> {
 /// Looks through a bag.
 pub fn summary(path: &Path) -> anyhow::Result<Summary> {
     Summary::of(open(path)?).with_context(|| path.display().to_string())
+}
+
+/// Prints what is wrong with a bag, and odd about it.
+pub fn warn(summary: &Summary, inputs: &Inputs) -> anyhow::Result<()> {
+    let clock = Clock::of(summary, inputs).notes();
+    let mut warnings = summary.warnings().chain(&clock);
+    warnings.try_for_each(|warning| output::line(format_args!("warning: {warning}")))
 }

@@ -32,8 +32,8 @@ pub struct Args {
     /// Edge length of a cell, metres.
     #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres)]
     resolution: f64,
-    /// Readings beyond this only clear what lies before it, metres; the lidar's own limit
-    /// when left out.
+    /// Readings beyond this only clear what lies before it, metres; the lidar's own limit,
+    /// or 100 m, when left out.
     #[arg(long, value_name = "M", value_parser = values::positive_metres)]
     max_range: Option<f64>,
     /// Believe odometry and match nothing: the picture before.
@@ -44,21 +44,24 @@ pub struct Args {
 /// Runs `frontier map build`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let summary = bag::summary(&args.bag)?;
-    for problem in &summary.problems {
-        output::line(format_args!("warning: {problem}"))?;
-    }
     let wanted =
         Wanted { scan_topic: args.scan_topic.clone(), pose_frame: args.pose_frame.clone(), ..Wanted::default() };
-    let inputs = Inputs::of(&summary, &wanted)?;
-    let (Some(scans), Some(odom), Some(base)) = (&inputs.scan_topic, &inputs.odom_frame, &inputs.base_frame) else {
-        bail!("{}: {}", args.bag.display(), inputs.verdict().get(1).map_or("", String::as_str));
+    let mut inputs = Inputs::of(&summary, &wanted)?;
+    inputs.forget_map();
+    bag::warn(&summary, &inputs)?;
+    let verdict = inputs.verdict(&summary).map_build;
+    let missing = verdict.err().unwrap_or_default();
+    let (Some(scans), Some(odom), Some(base), true) =
+        (&inputs.scan_topic, &inputs.odom_frame, &inputs.base_frame, missing.is_empty())
+    else {
+        bail!("{}: frontier map build: no, {missing}", args.bag.display());
     };
     output::line(format_args!("scans on {scans}, odometry from {odom} to {base}"))?;
     let mut config = BuilderConfig { is_matching: !args.odometry_only, ..BuilderConfig::default() };
     config.mapper.resolution_m = args.resolution;
     config.max_range_m = args.max_range.unwrap_or(f64::INFINITY);
     let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone())?;
-    player.map_scans(config);
+    player.map_scans(config, &summary);
     let mut way: Vec<Point> = Vec::new();
     let (mut now_s, mut last) = (0.0, None);
     while let Some(next_s) = player.next_time_s()? {
@@ -71,7 +74,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         }
     }
     let Some((mapping, grid)) = player.mapping().and_then(|mapping| Some((mapping, mapping.map()?))) else {
-        bail!("{}: tf has no place for any of its scans", args.bag.display());
+        bail!("{}: {}", args.bag.display(), player.why_no_map());
     };
     let saved = save_map(&args.output, &grid, &SaveOptions::default())?;
     let picture = Picture {
@@ -86,9 +89,10 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     };
     let png = saved.yaml.with_extension("way.png");
     write_atomic(&png, &picture.to_png()?).with_context(|| format!("cannot write {}", png.display()))?;
-    super::tell_scans(mapping)?;
+    super::tell_scans(&player)?;
     for file in [&saved.yaml, &saved.image, &png] {
         output::line(format_args!("  {}", file.display()))?;
     }
-    Ok(Outcome::Done)
+    // A map of less than half of the scans is not what was asked for.
+    Ok(if 2 * mapping.without_pose() > mapping.seen() { Outcome::Incomplete } else { Outcome::Done })
 }

@@ -10,7 +10,8 @@ mod save;
 use crate::exit::Outcome;
 use crate::output;
 use clap::Subcommand;
-use frontier_explorer::replay::ScanMapping;
+use frontier_explorer::replay::Player;
+use std::io::{Read, Seek};
 
 /// What to do with maps.
 #[derive(Debug, Subcommand)]
@@ -39,10 +40,15 @@ pub fn run(command: &Command) -> anyhow::Result<Outcome> {
 }
 
 /// What became of the scans of a bag.
-pub fn tell_scans(mapping: &ScanMapping) -> anyhow::Result<()> {
+pub fn tell_scans<R: Read + Seek>(player: &Player<R>) -> anyhow::Result<()> {
+    let Some(mapping) = player.mapping() else { return Ok(()) };
     let (taken, unmatched) = mapping.taken();
     let without = mapping.without_pose();
     output::line(format_args!(
         "{taken} scans taken in, {unmatched} of them placed by odometry alone, {without} without a place in tf"
-    ))
+    ))?;
+    for left_out in mapping.left_out() {
+        output::line(format_args!("warning: {left_out}"))?;
+    }
+    Ok(())
 }

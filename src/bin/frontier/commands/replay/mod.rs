@@ -10,10 +10,10 @@ use crate::run_folder::RunFolder;
 use crate::{inputs, output, values};
 use anyhow::bail;
 use frontier_explorer::bag::Summary;
-use frontier_explorer::explore::{Explorer, run as explore};
+use frontier_explorer::explore::{EndReason, Explorer, run as explore};
 use frontier_explorer::mapping::BuilderConfig;
 use frontier_explorer::replay::{BagRobot, Inputs, Player, Wanted};
-use frontier_explorer::report::RunRecord;
+use frontier_explorer::report::{FrameLog, RunRecord};
 use out_bag::OutBag;
 use recorder::Recorder;
 use std::path::{Path, PathBuf};
@@ -89,16 +89,17 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     if args.map_from_scans {
         found.forget_map();
     }
+    let verdict = found.verdict(&summary);
     tell(args, &summary, &found)?;
-    if !found.can_replay() {
-        bail!("{}: {}", args.bag.display(), found.verdict().first().map_or("", String::as_str));
+    if let Err(missing) = &verdict.replay {
+        bail!("{}: frontier replay: no, {missing}", args.bag.display());
     }
     let folder = RunFolder::create(&args.out, "replay.gif")?;
     let mut player = Player::new(bag::open(&args.bag)?, &summary, found.clone())?;
     if found.map_topic.is_none() {
         let mut config = BuilderConfig::default();
         config.mapper.resolution_m = args.resolution;
-        player.map_scans(config);
+        player.map_scans(config, &summary);
     }
     let out_bag = match &args.out_bag {
         Some(path) => Some(OutBag::create(path, &found, summary.start)?),
@@ -119,7 +120,19 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     if !args.quiet {
         report(args, &record, &recorder, &robot, &files)?;
     }
+    let is_stopped = matches!(end.reason, EndReason::Interrupted);
+    if record.decisions.is_empty() && !is_stopped {
+        bail!("{}: nothing was decided: {}", args.bag.display(), missing(&robot).join("; "));
+    }
     Ok(if end.reason.is_success() { Outcome::Done } else { Outcome::Incomplete })
+}
+
+/// What was missing for a decision.
+fn missing(robot: &FileRobot) -> Vec<String> {
+    if robot.has_begun() {
+        return vec![format!("the recording ended {:.1} s after its begin, before there was a need", robot.now_s())];
+    }
+    robot.missing()
 }
 
 /// What was guessed, and what is wrong with the bag.
@@ -127,10 +140,8 @@ fn tell(args: &Args, summary: &Summary, found: &Inputs) -> anyhow::Result<()> {
     if args.quiet {
         return Ok(());
     }
-    for problem in &summary.problems {
-        output::line(format_args!("warning: {problem}"))?;
-    }
-    found.verdict().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
+    bag::warn(summary, found)?;
+    found.verdict(summary).sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
 }
 
 type FileRobot = BagRobot<std::fs::File>;
@@ -147,8 +158,8 @@ fn save(
     folder.save(comparison, &serde_json::to_vec_pretty(&recorder.agreement)?)?;
     match robot.player().grid() {
         Some(grid) => {
-            folder.write(record, &recorder.trail, grid, robot.pose(), settings)?;
-            Ok(folder.files().chain([folder.path(comparison)]).collect())
+            let written = folder.write(record, &recorder.trail, grid, robot.pose(), settings)?;
+            Ok(written.into_iter().chain([folder.path(comparison)]).collect())
         }
         None => {
             folder.save("run.json", &record.to_json()?)?;
@@ -175,13 +186,13 @@ fn report(
     ))?;
     if !robot.has_begun() {
         output::line(format_args!("warning: there was never a map with the robot's place in it: nothing was decided"))?;
+    } else if recorder.trail.frames.as_ref().is_none_or(FrameLog::is_empty) {
+        output::line(format_args!("warning: no moment had a map to show: there is no animation"))?;
     }
     comparison::print(&recorder.agreement)?;
-    if let Some(mapping) = robot.player().mapping() {
-        super::map::tell_scans(mapping)?;
-    }
-    if robot.player().malformed() > 0 {
-        output::line(format_args!("warning: {} messages could not be understood", robot.player().malformed()))?;
+    super::map::tell_scans(robot.player())?;
+    for sentence in robot.player().faults().sentences() {
+        output::line(format_args!("warning: {sentence}"))?;
     }
     output::line(format_args!(
         "replayed in {:.1} s, {:.0} times as fast as recorded",

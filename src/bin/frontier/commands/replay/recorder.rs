@@ -203,7 +203,8 @@ impl Watcher<FileRobot> for Recorder<'_> {
         }
         self.remember(robot, observation);
         if let Some(rate) = self.rate {
-            let due = Duration::from_secs_f64(robot.now_s() / rate);
+            // Silence that was passed over is not waited for either.
+            let due = Duration::try_from_secs_f64((robot.now_s() - robot.skipped_s()) / rate).unwrap_or(Duration::MAX);
             std::thread::sleep(due.saturating_sub(self.began.elapsed()));
         }
     }
