@@ -103,7 +103,7 @@ impl RobotConfig {
     #[must_use]
     pub fn inflation(&self) -> Inflation {
         Inflation {
-            inscribed_radius_m: self.footprint.passage_radius_m(),
+            inscribed_radius_m: self.footprint.passage_radius_m() + self.costmap.padding_m,
             clear_radius_m: self.footprint.circumscribed_radius_m() + self.costmap.padding_m,
             inflation_radius_m: self.costmap.inflation_radius_m,
             cost_scaling_factor: self.costmap.cost_scaling_factor,

@@ -73,7 +73,7 @@ impl Explorer {
             lookout: Lookout::new(&settings, robot),
             blacklist: Blacklist::new(settings.taboo),
             settings,
-            watch: MapWatch::default(),
+            watch: MapWatch::new(&robot.sight),
             sights: Sights::new(robot.sight),
             driven: Driven::default(),
             trouble: Trouble::default(),
@@ -193,6 +193,7 @@ impl Explorer {
         }
         self.navigation_lost_since_s = None;
         self.watch_for_maps(now_s);
+        self.end_without_news(now_s);
         let record = self.advance(observation, pose);
         self.state.decision(record)
     }

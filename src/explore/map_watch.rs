@@ -4,6 +4,7 @@
 //! is sent, sends none while the robot stands, and in an f64 of seconds since 1970 a
 //! nanosecond vanishes.
 
+use super::sight::Sight;
 use crate::geometry::{Pose, shortest_angle};
 use crate::robot::MapSnapshot;
 
@@ -19,13 +20,17 @@ const LEAST_SHARE: f64 = 0.5;
 const SAME_RESOLUTION: f64 = 0.01;
 
 /// The map that is believed, and the robot's motion since it came.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct MapWatch {
+    /// Turning by less than this shows the lidar nothing new, radians.
+    new_view_rad: f64,
     believed: Option<Believed>,
     /// A map that is too different to be believed at once, with what it knows.
     doubted: Option<(u64, usize, f64)>,
     anchor: Option<Pose>,
-    /// The version of the map that was there when the robot last moved.
+    /// Where the robot was when it last came to see something new.
+    view: Option<Pose>,
+    /// The version of the map that was there then.
     moved_at_version: u64,
     moved_m: f64,
     turned_rad: f64,
@@ -40,6 +45,24 @@ struct Believed {
 }
 
 impl MapWatch {
+    /// No map yet, for a lidar. One that sees all round sees the same from one place however
+    /// it is turned, and gmapping sends its map in the middle of a turn.
+    #[must_use]
+    pub fn new(sight: &Sight) -> Self {
+        let new_view_rad = if sight.is_all_round() { f64::INFINITY } else { 0.5 * sight.field_of_view_rad };
+        Self {
+            new_view_rad: new_view_rad.max(STILL_RAD),
+            believed: None,
+            doubted: None,
+            anchor: None,
+            view: None,
+            moved_at_version: 0,
+            moved_m: 0.0,
+            turned_rad: 0.0,
+            due_since_s: None,
+        }
+    }
+
     /// Takes in the newest map and the robot's pose; what to say where a map is held back.
     pub fn update(&mut self, newest: Option<&MapSnapshot>, pose: Option<&Pose>, now_s: f64) -> Option<String> {
         let notice = newest.and_then(|map| self.take(map));
@@ -61,7 +84,7 @@ impl MapWatch {
         self.believed.as_ref().map_or(0.0, |b| b.known_cells as f64 * b.map.grid.info().cell_area_m2())
     }
 
-    /// Whether the map came after the robot last moved.
+    /// Whether the map came after the robot last moved so that it sees something new.
     #[must_use]
     pub fn is_fresh(&self) -> bool {
         self.map().is_some_and(|map| map.version > self.moved_at_version)
@@ -113,13 +136,18 @@ impl MapWatch {
     }
 
     fn follow(&mut self, pose: &Pose, now_s: f64) {
+        let view = *self.view.get_or_insert(*pose);
+        if pose.distance_to(view.position()) >= STILL_M || shortest_angle(view.yaw, pose.yaw).abs() >= self.new_view_rad
+        {
+            self.view = Some(*pose);
+            self.moved_at_version = self.map().map_or(0, |map| map.version);
+        }
         let anchor = *self.anchor.get_or_insert(*pose);
         let (moved_m, turned_rad) = (pose.distance_to(anchor.position()), shortest_angle(anchor.yaw, pose.yaw).abs());
         if moved_m < STILL_M && turned_rad < STILL_RAD {
             return;
         }
         self.anchor = Some(*pose);
-        self.moved_at_version = self.map().map_or(0, |map| map.version);
         self.moved_m += moved_m;
         self.turned_rad += turned_rad;
         if self.moved_m >= DUE_M || self.turned_rad >= DUE_RAD {
@@ -153,13 +181,17 @@ mod tests {
         MapSnapshot { stamp_s: 1.8e9, version, grid, costmap: None }
     }
 
+    fn watch(field_of_view_rad: f64) -> MapWatch {
+        MapWatch::new(&Sight { range_m: 8.0, field_of_view_rad, heading_rad: 0.0 })
+    }
+
     fn version(watch: &MapWatch) -> u64 {
         watch.map().unwrap().version
     }
 
     #[test]
     fn a_map_is_fresh_when_it_came_after_the_last_motion() {
-        let mut watch = MapWatch::default();
+        let mut watch = watch(6.3);
         let (here, there) = (Pose::default(), Pose::new(0.3, 0.0, 0.0));
         watch.update(Some(&map(1, 50, 0.1)), Some(&here), 0.0);
         assert!(watch.is_fresh());
@@ -172,8 +204,20 @@ mod tests {
     }
 
     #[test]
+    fn a_turn_shows_something_new_to_a_narrow_view_alone() {
+        for (field_of_view_rad, still_fresh) in [(6.3, true), (1.0, false)] {
+            let mut watch = watch(field_of_view_rad);
+            watch.update(Some(&map(1, 50, 0.1)), Some(&Pose::default()), 0.0);
+            watch.update(None, Some(&Pose::new(0.0, 0.0, 0.4)), 1.0);
+            assert!(watch.is_fresh(), "a small turn");
+            watch.update(None, Some(&Pose::new(0.0, 0.0, 0.8)), 2.0);
+            assert_eq!(watch.is_fresh(), still_fresh);
+        }
+    }
+
+    #[test]
     fn a_map_is_due_after_motion_and_not_at_rest() {
-        let mut watch = MapWatch::default();
+        let mut watch = watch(6.3);
         watch.update(Some(&map(1, 50, 0.1)), Some(&Pose::default()), 0.0);
         watch.update(None, Some(&Pose::new(0.9, 0.0, 0.0)), 10.0);
         assert_eq!(watch.overdue_s(100.0), 0.0);
@@ -185,7 +229,7 @@ mod tests {
 
     #[test]
     fn one_bad_map_among_good_ones_is_passed_over_and_two_are_believed() {
-        let mut watch = MapWatch::default();
+        let mut watch = watch(6.3);
         assert_eq!(watch.update(Some(&map(1, 80, 0.1)), None, 0.0), None);
         let notice = watch.update(Some(&map(2, 5, 0.1)), None, 1.0).unwrap();
         assert!(notice.contains("knows 5 cells"), "{notice}");

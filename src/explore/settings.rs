@@ -100,6 +100,8 @@ pub struct PatienceSettings {
     /// While frontiers are left and each attempt fails, the robot goes on trying for this
     /// time in all, with growing pauses, seconds.
     pub failing_s: f64,
+    /// The run ends when nothing new was seen for so long, whatever is left, seconds.
+    pub no_news_s: f64,
     /// The run ends when no usable map came for so long, seconds.
     pub map_timeout_s: f64,
     /// The run ends when the robot did not know where it was for so long, seconds.
@@ -120,6 +122,7 @@ impl Default for PatienceSettings {
             stall_s: 5.0,
             pose_grace_s: 1.0,
             failing_s: 120.0,
+            no_news_s: 900.0,
             map_timeout_s: 60.0,
             pose_timeout_s: 60.0,
             navigation_timeout_s: 60.0,
@@ -210,6 +213,7 @@ impl ExplorerSettings {
             ("patience.progress_distance_m", patience.progress_distance_m),
             ("patience.goal_timeout_s", patience.goal_timeout_s),
             ("patience.stall_s", patience.stall_s),
+            ("patience.no_news_s", patience.no_news_s),
             ("patience.map_timeout_s", patience.map_timeout_s),
             ("patience.pose_timeout_s", patience.pose_timeout_s),
             ("patience.navigation_timeout_s", patience.navigation_timeout_s),

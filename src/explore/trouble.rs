@@ -27,6 +27,8 @@ pub struct Trouble {
     back_offs_here: u32,
     /// What was known at the last success, square metres.
     known_m2: f64,
+    /// When that was, seconds.
+    news_s: Option<f64>,
 }
 
 impl Trouble {
@@ -39,18 +41,30 @@ impl Trouble {
         self.back_offs_here = 0;
     }
 
-    /// A map knows so much, square metres.
-    pub const fn sees(&mut self, known_m2: f64) {
+    /// A map knows so much at a time: square metres and seconds.
+    pub fn sees(&mut self, known_m2: f64, now_s: f64) {
         if known_m2 >= self.known_m2 + NEW_GROUND_M2 || known_m2 < 0.5 * self.known_m2 {
-            self.known_m2 = known_m2;
+            (self.known_m2, self.news_s) = (known_m2, Some(now_s));
             self.is_over();
         }
+    }
+
+    /// How long no new ground has been seen, seconds.
+    pub fn no_news_for_s(&mut self, now_s: f64) -> f64 {
+        now_s - *self.news_s.get_or_insert(now_s)
     }
 
     /// The robot is at a pose.
     pub fn follow(&mut self, pose: &Pose) {
         if let Some((_, from)) = self.began {
             self.farthest_m = self.farthest_m.max(pose.distance_to(from));
+        }
+    }
+
+    /// The next failure at this pose is the place's, though it is the first.
+    pub fn is_wedged_here(&mut self, pose: &Pose) {
+        if self.spot.is_none_or(|spot| pose.distance_to(spot) > ONE_PLACE_M) {
+            (self.spot, self.failures_here, self.back_offs_here) = (Some(pose.position()), 1, 0);
         }
     }
 
@@ -115,6 +129,17 @@ mod tests {
         assert_eq!(trouble.lasts_s(70.0), 60.0);
         trouble.is_over();
         assert_eq!((trouble.lasts_s(80.0), trouble.is_wedged()), (0.0, false));
+    }
+
+    #[test]
+    fn new_ground_is_news_and_a_success() {
+        let mut trouble = Trouble::default();
+        trouble.sees(10.0, 0.0);
+        trouble.fail(&Pose::default(), 5.0);
+        trouble.sees(10.5, 20.0);
+        assert_eq!((trouble.no_news_for_s(30.0), trouble.lasts_s(30.0)), (30.0, 25.0));
+        trouble.sees(11.1, 40.0);
+        assert_eq!((trouble.no_news_for_s(50.0), trouble.lasts_s(50.0)), (10.0, 0.0));
     }
 
     #[test]

@@ -7,8 +7,9 @@
 //! that shows what is there.
 
 use super::NavigationInput;
-use crate::control::{ControlInput, Outline, Surroundings};
-use crate::geometry::{Body, Path, Pose, Twist, shortest_angle};
+use super::feeler::Feeler;
+use crate::control::Surroundings;
+use crate::geometry::{Body, Pose, Twist, shortest_angle};
 use crate::robot::NavigationState;
 
 /// Speed along and turning speed, metres and radians per second.
@@ -19,16 +20,6 @@ const FAR_M: f64 = 0.25;
 const FAR_RAD: f64 = 0.6;
 /// At the longest, seconds.
 const LONGEST_S: f64 = 6.0;
-/// The body may be this near to something on the way, metres; where it is nearer already,
-/// it may come no nearer. More than the noise of a lidar.
-const CLEAR_M: f64 = 0.02;
-/// What is looked ahead, seconds, in steps of so many.
-const AHEAD_S: f64 = 2.5;
-const STEP_S: f64 = 0.1;
-/// A motion that leads less far is none.
-const FEWEST_STEPS: usize = 4;
-/// Distances from here on are as good as any, metres.
-const ENOUGH_M: f64 = 0.4;
 
 /// A motion under which the robot stands for so long leads nowhere, seconds.
 const VAIN_S: f64 = 0.6;
@@ -51,8 +42,7 @@ const MOTIONS: [&[Twist]; 3] = [
 /// Backing off, under way.
 #[derive(Clone, Debug)]
 pub struct BackOff {
-    outline: Outline,
-    radius_m: f64,
+    feeler: Feeler,
     began: Option<(f64, Pose)>,
     /// The motion under way, and where and when the robot last moved under it.
     motion: Option<(Twist, Pose, f64)>,
@@ -63,9 +53,7 @@ pub struct BackOff {
 impl BackOff {
     /// A body that gets away.
     pub fn new(body: &Body) -> Self {
-        let outline = Outline::new(&body.footprint);
-        let radius_m = body.footprint.circumscribed_radius_m();
-        Self { outline, radius_m, began: None, motion: None, vain: Vec::new() }
+        Self { feeler: Feeler::new(body), began: None, motion: None, vain: Vec::new() }
     }
 
     /// The command until the next tick, and how it is doing.
@@ -78,16 +66,7 @@ impl BackOff {
         let came_m = pose.distance_to(from.position());
         let turned_rad = shortest_angle(from.yaw, pose.yaw).abs();
         let is_over = came_m >= FAR_M || turned_rad >= FAR_RAD || now_s - began_s >= LONGEST_S;
-        let path = Path::default();
-        let control = ControlInput {
-            pose_in_map: pose,
-            twist: input.twist,
-            path: &path,
-            costmap: input.costmap,
-            scan: input.scan,
-            dt_s: STEP_S,
-        };
-        let around = Surroundings::new(&control, self.radius_m + ENOUGH_M + AHEAD_S * SPEED_MPS).ok();
+        let around = self.feeler.around(input);
         let motion = match (is_over, around) {
             (false, Some(around)) => self.choose(&pose, now_s, &around),
             _ => None,
@@ -110,27 +89,18 @@ impl BackOff {
             let twist = *twist;
             if now_s - *since_s >= VAIN_S {
                 self.vain.push(twist);
-            } else if self.gain_m(pose, around, twist).is_some() {
+            } else if self.feeler.gain_m(pose, around, twist, ROUNDING_M).is_some() {
                 return Some(twist);
             }
         }
         let best = MOTIONS.into_iter().find_map(|motions| {
             let open = motions.iter().filter(|motion| !self.vain.contains(motion));
-            let gains = open.filter_map(|&motion| Some((self.gain_m(pose, around, motion)?, motion)));
+            let gains =
+                open.filter_map(|&motion| Some((self.feeler.gain_m(pose, around, motion, ROUNDING_M)?, motion)));
             gains.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, motion)| motion)
         });
         self.motion = best.map(|twist| (twist, *pose, now_s));
         best
-    }
-
-    /// How far from everything the body comes, metres, if a motion brings it nearer to
-    /// nothing for at least a few steps.
-    fn gain_m(&self, pose: &Pose, around: &Surroundings, motion: Twist) -> Option<f64> {
-        let clearance_m = |at: &Pose| around.clearance_m(&self.outline, self.radius_m, at, ENOUGH_M);
-        let least_m = clearance_m(pose).min(CLEAR_M) - ROUNDING_M;
-        let steps = (1..=(AHEAD_S / STEP_S) as u32).map(|step| motion.advance(pose, STEP_S * f64::from(step)));
-        let led: Vec<f64> = steps.map(|at| clearance_m(&at)).take_while(|&here_m| here_m >= least_m).collect();
-        (led.len() >= FEWEST_STEPS).then(|| led.into_iter().fold(f64::NEG_INFINITY, f64::max))
     }
 }
 

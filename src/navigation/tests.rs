@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::control::{FollowerConfig, PathFollower};
-use crate::geometry::{Body, Footprint, MotionLimits};
+use crate::geometry::{Body, Footprint, MotionLimits, shortest_angle};
 use crate::grid::{Cell, GridInfo};
-use crate::planning::Astar;
+use crate::planning::{Astar, PlanError};
 
 const LIMITS: MotionLimits =
     MotionLimits { max_linear_mps: 0.5, max_angular_rps: 2.0, max_linear_mps2: 1.0, max_angular_rps2: 4.0 };

@@ -4,7 +4,12 @@ use super::super::record::DecisionRecord;
 use super::super::state::State;
 use super::Explorer;
 use crate::geometry::Pose;
+use crate::grid::{INSCRIBED_COST, LETHAL_COST};
 use crate::robot::{MapSnapshot, NavigationState, Observation};
+
+/// A robot that stands too near to an obstacle and still for so long does not get away by
+/// itself, seconds.
+const WEDGED_STILL_S: f64 = 2.0;
 
 impl Explorer {
     /// A tick on the way to a goal.
@@ -32,10 +37,19 @@ impl Explorer {
             _ => {
                 let stuck_s = drive.progress.stuck_for_s(&pose, now_s, patience.progress_distance_m);
                 let still_s = drive.progress.still_for_s(&pose, now_s);
+                // A robot that stands where its navigation cannot plan from gets no plan.
+                let wedged = still_s >= WEDGED_STILL_S
+                    && self.watch.map().and_then(|map| map.costmap.as_ref()).is_some_and(|costmap| {
+                        let cost = costmap.cost_at(pose.position());
+                        matches!(cost, INSCRIBED_COST | LETHAL_COST)
+                    });
                 let trouble = if now_s - drive.since_s >= patience.goal_timeout_s {
                     Some(format!("not reached within {:.0} s", patience.goal_timeout_s))
                 } else if stuck_s >= patience.progress_timeout_s {
                     Some(format!("no progress for {stuck_s:.0} s"))
+                } else if wedged {
+                    self.trouble.is_wedged_here(&pose);
+                    Some("the robot stands too near to an obstacle to be planned for".to_owned())
                 } else if still_s >= patience.stall_s {
                     Some(format!("the robot has not moved for {still_s:.0} s"))
                 } else {

@@ -47,7 +47,7 @@ impl Explorer {
     ) -> Option<DecisionRecord> {
         let now_s = observation.stamp_s;
         self.counts.detections += 1;
-        self.trouble.sees(self.watch.known_m2());
+        self.trouble.sees(self.watch.known_m2(), now_s);
         let situation = Situation {
             settings: &self.settings,
             blacklist: &self.blacklist,

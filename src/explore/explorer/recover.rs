@@ -50,6 +50,20 @@ impl Explorer {
         true
     }
 
+    /// Ends a run that goes on and on and sees nothing new: goals are reached or exchanged,
+    /// and no frontier gives way.
+    pub(super) fn end_without_news(&mut self, now_s: f64) {
+        let no_news_s = self.trouble.no_news_for_s(now_s);
+        let is_over = matches!(self.state, State::Ended(_) | State::Returning { .. });
+        if no_news_s >= self.settings.patience.no_news_s && !is_over {
+            let message = format!(
+                "nothing new was seen for {no_news_s:.0} s, and {} frontiers are left",
+                self.left_behind.frontiers
+            );
+            self.finish(EndReason::AllUnreachable, now_s, &message);
+        }
+    }
+
     /// Frontiers are left, and nothing leads to any of them: a recovery, or the end.
     pub(super) fn recover(&mut self, decided: &Decided, pose: Pose, now_s: f64, record: &mut DecisionRecord) {
         let left = &decided.left_behind;

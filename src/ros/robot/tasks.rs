@@ -74,6 +74,11 @@ impl RosRobot {
         if let Some(move_base) = &mut self.parts.move_base {
             move_base.cancel();
         }
+        if let (Some(move_base), true) = (&self.parts.move_base, self.config.clear_costmaps)
+            && !matches!(self.task, Task::Pilot)
+        {
+            move_base.clear_costmaps();
+        }
         self.task = if self.config.back_off {
             self.parts.pilot.command(command);
             Task::Pilot
