@@ -9,6 +9,7 @@ pub struct ProgressMonitor {
     since_s: f64,
     /// Where it was when it last moved at all, and when.
     still: (Pose, f64),
+    has_moved: bool,
 }
 
 /// Motion below this is standing still, metres and radians.
@@ -19,7 +20,7 @@ impl ProgressMonitor {
     /// Starts watching at a pose and a time in seconds.
     #[must_use]
     pub const fn new(pose: &Pose, now_s: f64) -> Self {
-        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s) }
+        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s), has_moved: false }
     }
 
     /// Seconds since the robot was last `distance_m` away from where it is now.
@@ -36,10 +37,16 @@ impl ProgressMonitor {
         let has_moved =
             pose.distance_to(last.position()) >= STILL_M || shortest_angle(last.yaw, pose.yaw).abs() >= STILL_RAD;
         if has_moved {
-            self.still = (*pose, now_s);
+            (self.still, self.has_moved) = ((*pose, now_s), true);
             return 0.0;
         }
         now_s - since_s
+    }
+
+    /// Whether it has moved or turned since the watching began.
+    #[must_use]
+    pub const fn has_moved(&self) -> bool {
+        self.has_moved
     }
 
     /// Forgives the time in which the robot was not meant to move.
@@ -67,7 +74,9 @@ mod tests {
     fn turning_is_no_standing_still() {
         let mut monitor = ProgressMonitor::new(&Pose::default(), 0.0);
         assert_eq!(monitor.still_for_s(&Pose::new(0.02, 0.0, 0.1), 4.0), 4.0);
+        assert!(!monitor.has_moved());
         assert_eq!(monitor.still_for_s(&Pose::new(0.0, 0.0, 0.2), 5.0), 0.0);
+        assert!(monitor.has_moved());
         assert_eq!(monitor.still_for_s(&Pose::new(0.04, 0.0, 0.2), 9.0), 4.0);
         assert_eq!(monitor.still_for_s(&Pose::new(0.06, 0.0, 0.2), 10.0), 0.0);
     }

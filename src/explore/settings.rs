@@ -95,6 +95,10 @@ pub struct PatienceSettings {
     /// A robot that is sent to a goal and stands still for so long is sent elsewhere,
     /// seconds.
     pub stall_s: f64,
+    /// One that has not moved at all since it was sent, after so long, seconds: its planner
+    /// has found no way. GlobalPlanner fails so for one goal in twelve, wherever it lies in
+    /// its cell.
+    pub begin_s: f64,
     /// A pose that is unknown for less than this leaves the goal under way, seconds.
     pub pose_grace_s: f64,
     /// While frontiers are left and each attempt fails, the robot goes on trying for this
@@ -120,6 +124,7 @@ impl Default for PatienceSettings {
             goal_timeout_s: 300.0,
             settle_s: 2.5,
             stall_s: 5.0,
+            begin_s: 2.0,
             pose_grace_s: 1.0,
             failing_s: 120.0,
             no_news_s: 900.0,
@@ -213,6 +218,7 @@ impl ExplorerSettings {
             ("patience.progress_distance_m", patience.progress_distance_m),
             ("patience.goal_timeout_s", patience.goal_timeout_s),
             ("patience.stall_s", patience.stall_s),
+            ("patience.begin_s", patience.begin_s),
             ("patience.no_news_s", patience.no_news_s),
             ("patience.map_timeout_s", patience.map_timeout_s),
             ("patience.pose_timeout_s", patience.pose_timeout_s),

@@ -50,7 +50,7 @@ impl Explorer {
                 } else if wedged {
                     self.trouble.is_wedged_here(&pose);
                     Some("the robot stands too near to an obstacle to be planned for".to_owned())
-                } else if still_s >= patience.stall_s {
+                } else if still_s >= if drive.progress.has_moved() { patience.stall_s } else { patience.begin_s } {
                     Some(format!("the robot has not moved for {still_s:.0} s"))
                 } else {
                     None
