@@ -88,7 +88,7 @@ impl Topics {
 
     /// Tells the newest scan, taken at a time.
     pub fn tell_scan(&self, plant: &Plant, stamp_s: f64) {
-        let mut message = convert::scan_message(&plant.scan().1, SCAN, self.scan_period_s);
+        let mut message = convert::scan_message(plant.scan().1, SCAN, self.scan_period_s);
         message.header.stamp = convert::time(stamp_s);
         let _ = self.scan.send(message);
     }

@@ -138,7 +138,8 @@ impl MatchedSlam {
     /// Tells what has been found by now; the newest map if there are several.
     pub(super) fn publish(&mut self, now: Micros) -> Result<Option<NewMap>, MapperError> {
         let mut map = None;
-        while let Some(coming) = self.coming.pop_front_if(|coming| coming.due <= now) {
+        while self.next() <= now {
+            let Some(coming) = self.coming.pop_front() else { break };
             self.map_from_odom = coming.map_from_odom;
             map = coming.map.or(map);
         }
