@@ -46,7 +46,7 @@ pub enum TurnBy {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct NodeParams {
-    /// The preset: a built-in name, or a YAML file. `wfd` when absent, and
+    /// The preset: a built-in name, or a YAML file. `liang` when absent, and
     /// `explore_lite` when one of explore_lite's weights is set.
     pub config: Option<String>,
     /// The robot: a built-in name, or a YAML file.
@@ -61,8 +61,11 @@ pub struct NodeParams {
     pub map_topic: String,
     /// The topic of its updates.
     pub map_updates_topic: String,
-    /// The topic of a global costmap; our own inflation when empty.
+    /// The topic of a global costmap to plan on; our own inflation when empty.
     pub global_costmap_topic: String,
+    /// Where the server publishes its global costmap, goals keep away from what that says
+    /// is no place to stand.
+    pub believe_costmap: bool,
     /// The robot's frame.
     pub base_frame: String,
     /// How old the robot's transform may be, seconds.
@@ -77,6 +80,9 @@ pub struct NodeParams {
     pub clear_costmaps: bool,
     /// Who makes the robot look round.
     pub turn_by: TurnBy,
+    /// Velocity commands of our own get the robot away from what stands too near, guarded
+    /// by the scan, when goals fail from one place again and again.
+    pub back_off: bool,
     /// Corners `[x, y]` in metres of the map frame: only frontiers inside are explored.
     pub region: Option<Vec<[f64; 2]>>,
     /// Where the map is saved at the end, as map_saver's `-f`; not at all when empty.
@@ -118,6 +124,7 @@ impl Default for NodeParams {
             map_topic: "map".to_owned(),
             map_updates_topic: "map_updates".to_owned(),
             global_costmap_topic: String::new(),
+            believe_costmap: true,
             base_frame: "base_link".to_owned(),
             transform_tolerance: 0.5,
             tick_rate: 5.0,
@@ -125,6 +132,7 @@ impl Default for NodeParams {
             check_with_make_plan: false,
             clear_costmaps: true,
             turn_by: TurnBy::default(),
+            back_off: true,
             region: None,
             map_file: String::new(),
             exit_when_done: false,
@@ -186,7 +194,7 @@ impl NodeParams {
     #[must_use]
     pub fn base_preset(&self) -> &str {
         let weighed = [self.potential_scale, self.orientation_scale, self.gain_scale, self.min_frontier_size];
-        let default = if weighed.iter().any(Option::is_some) { "explore_lite" } else { "wfd" };
+        let default = if weighed.iter().any(Option::is_some) { "explore_lite" } else { "liang" };
         self.config.as_deref().unwrap_or(default)
     }
 

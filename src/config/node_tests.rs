@@ -8,14 +8,15 @@ fn preset(tree: Value) -> Result<Preset, NodeParamsError> {
 
 #[test]
 fn without_parameters_it_is_the_built_in_preset() {
-    assert_eq!(preset(json!({})).unwrap(), Preset::built_in("wfd").unwrap());
+    assert_eq!(preset(json!({})).unwrap(), Preset::built_in("liang").unwrap());
     let alghfeli = preset(json!({"config": "alghfeli", "tick_rate": 10})).unwrap();
     assert_eq!(alghfeli, Preset::built_in("alghfeli").unwrap());
 }
 
 #[test]
 fn single_settings_are_laid_over_the_preset() {
-    let changed = preset(json!({"explorer": {"turns": {"at_goal": false}, "patience": {"time_limit_s": 600}}}));
+    let over = json!({"turns": {"at_goal": false}, "patience": {"time_limit_s": 600}});
+    let changed = preset(json!({"config": "wfd", "explorer": over}));
     let changed = changed.unwrap();
     let mut expected = Preset::built_in("wfd").unwrap();
     expected.explorer.turns.at_goal = false;

@@ -66,6 +66,7 @@ pub struct NavigationSettings {
 /// The presets in the binary, by name, as in `configs/`.
 const BUILT_IN: &[(&str, &str)] = &[
     ("wfd", include_str!("../../configs/wfd.yaml")),
+    ("wfd_360", include_str!("../../configs/wfd_360.yaml")),
     ("yamauchi", include_str!("../../configs/yamauchi.yaml")),
     ("liang", include_str!("../../configs/liang.yaml")),
     ("liang_closest", include_str!("../../configs/liang_closest.yaml")),

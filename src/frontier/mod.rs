@@ -8,6 +8,7 @@ mod clusters;
 mod connected;
 mod contacts;
 mod dbscan;
+mod explore_lite;
 mod fast;
 mod flood;
 mod found;
@@ -39,6 +40,7 @@ pub use bitplane::Bitplane;
 pub use canny::{Canny, CannyParams};
 pub use cells::Cells;
 pub use dbscan::{Dbscan, DbscanParams};
+pub use explore_lite::ExploreLiteSearch;
 pub use fast::{Fast, FastParams};
 pub use found::FrontierCells;
 pub use image::{ImageDetector, ImageParams};
@@ -183,6 +185,8 @@ pub enum DetectorKind {
     Bitplane,
     /// The same frontiers again, repaired where the map changed.
     Incremental,
+    /// explore_lite's own: a side must be free, and corners suffice to hang together.
+    ExploreLite,
     /// A scan of the whole grid (Yamauchi 1997).
     Yamauchi,
     /// Image processing with enclosing circles (Liang 2020).
@@ -201,6 +205,7 @@ impl DetectorKind {
         Self::Wavefront,
         Self::Bitplane,
         Self::Incremental,
+        Self::ExploreLite,
         Self::Yamauchi,
         Self::Image,
         Self::Dbscan,
@@ -213,6 +218,7 @@ impl DetectorKind {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Wavefront => "wavefront",
+            Self::ExploreLite => "explore_lite",
             Self::Yamauchi => "yamauchi",
             Self::Image => "image",
             Self::Dbscan => "dbscan",
@@ -228,6 +234,7 @@ impl DetectorKind {
     pub fn build(self, params: &DetectorParams) -> Box<dyn FrontierDetector> {
         match self {
             Self::Wavefront => Box::new(Wavefront::new(*params)),
+            Self::ExploreLite => Box::new(ExploreLiteSearch::new(*params)),
             Self::Yamauchi => Box::new(Yamauchi::new(*params)),
             Self::Image => Box::new(ImageDetector::new(*params)),
             Self::Dbscan => Box::new(Dbscan::new(*params)),

@@ -139,6 +139,26 @@ impl Costmap {
         Some(Self { info: self.info, costs: costs.collect() })
     }
 
+    /// The same costmap where another one of the same ground knows of more: its lethal and
+    /// inscribed cells are such here too, and its costs count where they are higher. What it
+    /// does not know says nothing.
+    #[must_use]
+    pub fn with_obstacles_of(&self, other: &Self) -> Self {
+        let higher = |own: u8, theirs: u8| match (own, theirs) {
+            (_, UNKNOWN_COST) => own,
+            (UNKNOWN_COST, INSCRIBED_COST | LETHAL_COST) => theirs,
+            (UNKNOWN_COST, _) => own,
+            _ => own.max(theirs),
+        };
+        let costs = if self.info == other.info {
+            self.costs.iter().zip(&other.costs).map(|(&own, &theirs)| higher(own, theirs)).collect()
+        } else {
+            let theirs = |index| other.cost_at(self.info.center(self.info.cell(index)));
+            self.costs.iter().enumerate().map(|(index, &own)| higher(own, theirs(index))).collect()
+        };
+        Self { info: self.info, costs }
+    }
+
     /// The same costmap with other costs in some cells; those outside are left out.
     #[must_use]
     pub fn with_costs(&self, others: &HashMap<Cell, u8>) -> Self {

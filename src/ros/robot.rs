@@ -32,6 +32,8 @@ pub struct RosRobotConfig {
     pub tick_period_s: f64,
     /// Turns are made by goals of move_base.
     pub turn_by_goals: bool,
+    /// Velocity commands may get the robot away from what stands too near.
+    pub back_off: bool,
     /// Ask move_base to clear its costmaps when a goal failed.
     pub clear_costmaps: bool,
 }
@@ -178,13 +180,7 @@ impl Robot for RosRobot {
                 self.task = Task::Pilot;
                 self.count_goal(id);
             }
-            Command::BackOff { .. } => {
-                if let Some(move_base) = &mut self.parts.move_base {
-                    move_base.cancel();
-                }
-                self.parts.pilot.command(command);
-                self.task = Task::Pilot;
-            }
+            Command::BackOff { id } => self.back_off(command, id),
         }
         Ok(())
     }

@@ -3,9 +3,20 @@
 use super::clock::RunClock;
 use super::map_feed::{MapFeed, ReceivedMap};
 use super::node::Node;
-use crate::grid::{Costmap, Inflation, Thresholds};
+use crate::grid::{Costmap, Inflation, OccupancyGrid, Thresholds};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
+
+/// Where costs come from besides our own inflation of the map.
+pub enum CostmapFeed {
+    /// From nowhere.
+    None,
+    /// A costmap that takes the place of our own; it is waited for.
+    PlannedOn(MapFeed),
+    /// The costmap of whoever drives, where it comes: what is no place to stand there is
+    /// none here.
+    Believed(MapFeed),
+}
 
 /// A map, as it came and as it is explored.
 struct KnownMap {
@@ -13,22 +24,23 @@ struct KnownMap {
     version: (u64, u64),
     snapshot: MapSnapshot,
     received: ReceivedMap,
+    /// Our own costs of the map, where we make them.
+    own: Option<Arc<Costmap>>,
 }
 
 /// The feeds of map and costmap, and the newest of both.
 pub struct RobotMap {
     map: MapFeed,
-    /// Where the costmap is not made here.
-    costmap: Option<MapFeed>,
+    costmap: CostmapFeed,
     thresholds: Thresholds,
     inflation: Inflation,
     known: Option<KnownMap>,
 }
 
 impl RobotMap {
-    /// No map yet; without a costmap's feed, maps are inflated here.
+    /// No map yet.
     #[must_use]
-    pub const fn new(map: MapFeed, costmap: Option<MapFeed>, thresholds: Thresholds, inflation: Inflation) -> Self {
+    pub const fn new(map: MapFeed, costmap: CostmapFeed, thresholds: Thresholds, inflation: Inflation) -> Self {
         Self { map, costmap, thresholds, inflation, known: None }
     }
 
@@ -59,38 +71,53 @@ impl RobotMap {
     /// Why no costmap has come after so many seconds, if one is needed and none has.
     #[must_use]
     pub fn missing_costmap(&self, node: &Node, waited_s: f64) -> Option<String> {
-        self.costmap.as_ref()?.missing(node, "~global_costmap_topic", waited_s)
+        let CostmapFeed::PlannedOn(feed) = &self.costmap else { return None };
+        feed.missing(node, "~global_costmap_topic", waited_s)
     }
 
     /// Takes the newest map and costmap in; whether one of them is new.
     pub fn take_newest(&mut self, clock: &RunClock) -> bool {
-        let received = self.map.newest();
-        let costmap = self.costmap.as_mut().map(MapFeed::newest);
-        let Some(received) = received else { return false };
-        // A costmap that is to come is waited for.
-        if matches!(costmap, Some(None)) {
-            return false;
-        }
-        let costmap = costmap.flatten();
+        let Some(received) = self.map.newest() else { return false };
+        let costmap = match &mut self.costmap {
+            CostmapFeed::None => None,
+            CostmapFeed::PlannedOn(feed) => {
+                let Some(costmap) = feed.newest() else { return false };
+                Some(costmap)
+            }
+            CostmapFeed::Believed(feed) => feed.newest().filter(|costmap| costmap.frame == received.frame),
+        };
         let version = (received.version, costmap.as_ref().map_or(0, |costmap| costmap.version));
         if self.known.as_ref().is_some_and(|known| known.version == version) {
             return false;
         }
         let grid = Arc::clone(&received.grid);
-        let before = self.known.as_ref().map(|known| &known.snapshot);
-        let before = before.and_then(|snapshot| Some((&snapshot.grid, snapshot.costmap.as_ref()?)));
-        let costmap = match (costmap, before) {
-            (Some(costmap), _) => Costmap::from_published(&costmap.grid).on_grid(grid.info()),
-            (None, Some((old, costmap))) => costmap.reinflate(old, &grid, &self.thresholds, &self.inflation),
-            (None, None) => Costmap::inflate(&grid, &self.thresholds, &self.inflation),
+        let (own, costs) = match (&self.costmap, costmap) {
+            (CostmapFeed::PlannedOn(_), Some(costmap)) => {
+                (None, Arc::new(Costmap::from_published(&costmap.grid).on_grid(grid.info())))
+            }
+            (_, costmap) => {
+                let own = self.inflated(&grid, received.version);
+                let costs = match costmap {
+                    Some(costmap) => Arc::new(own.with_obstacles_of(&Costmap::from_published(&costmap.grid))),
+                    None => Arc::clone(&own),
+                };
+                (Some(own), costs)
+            }
         };
-        let snapshot = MapSnapshot {
-            stamp_s: clock.of(received.stamp_s),
-            version: version.0,
-            grid,
-            costmap: Some(Arc::new(costmap)),
-        };
-        self.known = Some(KnownMap { version, snapshot, received });
+        let snapshot =
+            MapSnapshot { stamp_s: clock.of(received.stamp_s), version: received.version, grid, costmap: Some(costs) };
+        self.known = Some(KnownMap { version, snapshot, received, own });
         true
+    }
+
+    /// Our own costs of a map, made once for each.
+    fn inflated(&self, grid: &Arc<OccupancyGrid>, version: u64) -> Arc<Costmap> {
+        match &self.known {
+            Some(KnownMap { version: (same, _), own: Some(own), .. }) if *same == version => Arc::clone(own),
+            Some(KnownMap { snapshot, own: Some(own), .. }) => {
+                Arc::new(own.reinflate(&snapshot.grid, grid, &self.thresholds, &self.inflation))
+            }
+            _ => Arc::new(Costmap::inflate(grid, &self.thresholds, &self.inflation)),
+        }
     }
 }

@@ -40,8 +40,9 @@ fn each_strategy_has_its_own_order() {
         // e = 0.15, 0.375, 0.4
         (SelectorConfig::RadiusDistance {}, [2, 1, 0]),
         (by_size, [1, 2, 0]),
-        (explore_lite(3.0), [0, 2, 1]),
-        (explore_lite(0.1), [1, 2, 0]),
+        // 0.15 a metre at cells of 0.05 m, as explore_lite itself counts.
+        (explore_lite(3.0), [1, 2, 0]),
+        (explore_lite(60.0), [0, 2, 1]),
         // 4 / 2 + 2 / 0.3 + 7 / 6 = 9.8
         (SelectorConfig::Mrtsp {}, [2, 0, 1]),
     ] {

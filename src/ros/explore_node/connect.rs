@@ -1,6 +1,6 @@
 //! From settings to connections.
 
-use super::super::robot_map::RobotMap;
+use super::super::robot_map::{CostmapFeed, RobotMap};
 use super::{ExploreNodeError, Settings};
 use crate::config::{Drive, TurnBy};
 use crate::frontier::DetectorKind;
@@ -42,12 +42,9 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
     let bell = Arc::<Bell>::default();
     let transforms = Arc::new(Transforms::listen(node));
     let map = MapFeed::listen(node, &params.map_topic, &params.map_updates_topic, &bell);
-    let costmap = (!params.global_costmap_topic.is_empty()).then(|| {
-        let topic = &params.global_costmap_topic;
-        MapFeed::listen(node, topic, &format!("{topic}_updates"), &bell)
-    });
     let drives_itself = navigation.drive == Drive::Internal;
-    let needs_scans = drives_itself || explorer.detector.name == DetectorKind::Fast;
+    let costmap = costmap_feed(node, settings, &bell);
+    let needs_scans = drives_itself || params.back_off || explorer.detector.name == DetectorKind::Fast;
     let scans = needs_scans.then(|| Arc::new(ScanFeed::listen(node, "scan")));
     let move_base = if drives_itself { None } else { Some(MoveBase::connect(node, &params.move_base, &bell)?) };
     let body = robot.body();
@@ -76,6 +73,7 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
         transform_tolerance_s: params.transform_tolerance,
         tick_period_s: 1.0 / params.tick_rate,
         turn_by_goals: params.turn_by == TurnBy::MoveBase,
+        back_off: params.back_off,
         clear_costmaps: params.clear_costmaps,
     };
     let parts = Connections {
@@ -90,6 +88,21 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
         troubles,
     };
     Ok((RosRobot::new(node, config, parts), connected))
+}
+
+/// The costmap that is planned on, or the server's own, which is looked at where it comes.
+fn costmap_feed(node: &Node, settings: &Settings, bell: &Arc<Bell>) -> CostmapFeed {
+    let params = &settings.params;
+    let listen = |topic: &str, bell| MapFeed::listen(node, topic, &format!("{topic}_updates"), bell);
+    let own = format!("{}/global_costmap/costmap", params.move_base);
+    if !params.global_costmap_topic.is_empty() {
+        CostmapFeed::PlannedOn(listen(&params.global_costmap_topic, bell))
+    } else if params.believe_costmap && settings.preset.navigation.drive == Drive::MoveBase && params.map_topic != own {
+        // It comes each second: no reason to wake up.
+        CostmapFeed::Believed(listen(&own, &Arc::default()))
+    } else {
+        CostmapFeed::None
+    }
 }
 
 fn canceller(move_base: Option<&MoveBase>) -> Box<dyn FnOnce() + Send> {

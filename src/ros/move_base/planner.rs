@@ -1,6 +1,6 @@
 //! Asking move_base whether there is a way, with our own planner to fall back on.
 
-use super::super::call::call;
+use super::super::call::{CallError, call};
 use super::super::convert;
 use super::super::log::Level;
 use super::super::msg::nav_msgs::{GetPlan, GetPlanReq};
@@ -13,12 +13,12 @@ use std::time::Duration;
 
 /// How long move_base may think.
 const LIMIT: Duration = Duration::from_secs(2);
-/// How far from the goal a plan may end, metres.
-const TOLERANCE_M: f32 = 0.3;
+/// How far from the goal a plan may end, metres: nowhere else, as with goals of the action.
+const TOLERANCE_M: f32 = 0.0;
 
-/// A planner that asks `make_plan`. move_base answers only while it is idle and its
-/// answer to "there is none" cannot be told from "not now", so an empty plan is checked
-/// by our own planner, and so is a server that does not answer.
+/// A planner that asks `make_plan`. An empty plan is a no, and its length is the way. While
+/// a goal is active move_base refuses to answer: then, and where nobody answers, our own
+/// planner decides, and that is said once.
 pub struct AskingPlanner {
     node: Node,
     service: String,
@@ -34,11 +34,8 @@ impl AskingPlanner {
         Self { node: node.clone(), service: format!("{server}/make_plan"), frame, own }
     }
 
-    fn ask(&self, start: &Pose, goal: &Pose) -> Option<Path> {
-        // A node that was told to stop has no time for this.
-        if !self.node.is_ok() {
-            return None;
-        }
+    /// The plan of the server: an empty one is a no; an error when it does not answer.
+    fn ask(&self, start: &Pose, goal: &Pose) -> Result<Path, CallError> {
         let frame = self.frame.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let now_s = self.node.now_s();
         let request = GetPlanReq {
@@ -46,19 +43,11 @@ impl AskingPlanner {
             goal: convert::stamped(goal, &frame, now_s),
             tolerance: TOLERANCE_M,
         };
-        match call::<GetPlan>(&self.node, &self.service, request, LIMIT) {
-            Ok(answer) if answer.plan.poses.len() > 1 => {
-                let poses = answer.plan.poses.iter().map(|one| convert::pose(&one.pose)).collect();
-                let mut path = Path { poses, cost: 0.0 };
-                path.cost = path.length_m();
-                Some(path)
-            }
-            Ok(_) => None,
-            Err(error) => {
-                self.node.log().once(Level::Warn, format_args!("{error}: our own planner decides"));
-                None
-            }
-        }
+        let answer = call::<GetPlan>(&self.node, &self.service, request, LIMIT)?;
+        let poses = answer.plan.poses.iter().map(|one| convert::pose(&one.pose)).collect();
+        let mut path = Path { poses, cost: 0.0 };
+        path.cost = path.length_m();
+        Ok(path)
     }
 }
 
@@ -68,9 +57,16 @@ impl GlobalPlanner for AskingPlanner {
     }
 
     fn plan(&mut self, costmap: &Costmap, start_in_map: &Pose, goal_in_map: &Pose) -> Result<Path, PlanError> {
-        match self.ask(start_in_map, goal_in_map) {
-            Some(path) => Ok(path),
-            None => self.own.plan(costmap, start_in_map, goal_in_map),
+        // A node that was told to stop has no time for this.
+        if self.node.is_ok() {
+            match self.ask(start_in_map, goal_in_map) {
+                Ok(path) if path.poses.is_empty() => return Err(PlanError::no_path(goal_in_map.position())),
+                Ok(path) => return Ok(path),
+                Err(error) => {
+                    self.node.log().once(Level::Warn, format_args!("{error}: our own planner decides"));
+                }
+            }
         }
+        self.own.plan(costmap, start_in_map, goal_in_map)
     }
 }

@@ -16,6 +16,8 @@ pub(super) enum Task {
     Goal(CommandId),
     Turn(CommandId, TurnGoals),
     Pilot,
+    /// What the settings do not allow.
+    Refused(CommandId),
 }
 
 impl RosRobot {
@@ -30,6 +32,9 @@ impl RosRobot {
             Task::Goal(id) => Navigation { command: *id, state: move_base.state() },
             Task::Turn(id, turn) => Navigation { command: *id, state: turn.advance(move_base, frame) },
             Task::Pilot => self.parts.pilot.navigation(),
+            Task::Refused(id) => {
+                Navigation { command: *id, state: NavigationState::Aborted("~back_off is false".to_owned()) }
+            }
         }
     }
 
@@ -62,6 +67,19 @@ impl RosRobot {
         if let (true, Some(received)) = (self.map_is_new, self.parts.map.received()) {
             self.latencies_ms.push(1e3 * received.arrived.elapsed().as_secs_f64());
         }
+    }
+
+    /// Gets away from what stands too near by velocity commands, where that is allowed.
+    pub(super) fn back_off(&mut self, command: &Command, id: CommandId) {
+        if let Some(move_base) = &mut self.parts.move_base {
+            move_base.cancel();
+        }
+        self.task = if self.config.back_off {
+            self.parts.pilot.command(command);
+            Task::Pilot
+        } else {
+            Task::Refused(id)
+        };
     }
 
     /// Turns on the spot, unless that turn is under way.
