@@ -50,6 +50,14 @@ pub struct SlamConfig {
     pub lateness_min_s: f64,
     /// And at most so late.
     pub lateness_max_s: f64,
+    /// A map comes so long after the correction by its scan at least, seconds.
+    pub map_delay_min_s: f64,
+    /// And at most so long after it.
+    pub map_delay_max_s: f64,
+    /// Standard deviation along each axis of the error that is added to a match, metres.
+    pub match_error_m: f64,
+    /// And of its heading, radians.
+    pub match_error_rad: f64,
     /// At most so many points of a scan are matched.
     pub max_points: usize,
     /// A match below this mean likelihood is not believed: odometry is.
@@ -65,6 +73,10 @@ impl Default for SlamConfig {
             map_interval_s: 2.0,
             lateness_min_s: 0.1,
             lateness_max_s: 0.25,
+            map_delay_min_s: 0.05,
+            map_delay_max_s: 0.5,
+            match_error_m: 0.015,
+            match_error_rad: 0.006,
             max_points: 180,
             min_likelihood: 0.3,
         }
@@ -86,6 +98,15 @@ impl SlamConfig {
             "slam.lateness_max_s",
             self.lateness_max_s,
             "at least lateness_min_s and at most 10",
+        )?;
+        OutOfRange::unless_not_negative("slam.match_error_m", self.match_error_m)?;
+        OutOfRange::unless_not_negative("slam.match_error_rad", self.match_error_rad)?;
+        OutOfRange::unless_not_negative("slam.map_delay_min_s", self.map_delay_min_s)?;
+        OutOfRange::unless(
+            self.map_delay_max_s >= self.map_delay_min_s && self.map_delay_max_s <= 10.0,
+            "slam.map_delay_max_s",
+            self.map_delay_max_s,
+            "at least map_delay_min_s and at most 10",
         )?;
         OutOfRange::unless(
             (0.0..=1.0).contains(&self.min_likelihood),

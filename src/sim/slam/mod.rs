@@ -81,7 +81,7 @@ impl Slam {
     pub(super) fn publish(&mut self, newest: &Sweep, now: Micros) -> Result<Option<NewMap>, MapperError> {
         match self {
             Self::Perfect(slam) => slam.publish(newest, now),
-            Self::Matched(slam) => slam.publish(now),
+            Self::Matched(slam) => Ok(slam.publish(now)),
         }
     }
 

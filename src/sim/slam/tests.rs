@@ -74,7 +74,7 @@ fn maps_come_seldom_while_it_drives_and_late() {
     round(&mut sim, |plant, is_map| {
         if is_map {
             let late_s = plant.now_s() - plant.map_stamp_s();
-            assert!((0.1..=0.25).contains(&late_s), "{late_s} s after its scan");
+            assert!((0.15..=0.75).contains(&late_s), "{late_s} s after its scan");
             times.push(plant.map_stamp_s());
         }
     });
@@ -143,7 +143,7 @@ fn walls_are_dotted() {
     let [clean, smeared] = maps(None).map(|map| dots(&map));
     // Of the cells of gmapping's walls there were 2.3 % as many dots.
     let [clean_share, share] = [clean, smeared].map(|(dots, walls)| dots as f64 / walls as f64);
-    assert!(share > 2.0 * clean_share && (0.01..0.12).contains(&share), "{smeared:?} after {clean:?}");
+    assert!(share > 1.5 * clean_share && (0.01..0.12).contains(&share), "{smeared:?} after {clean:?}");
 }
 
 #[test]
