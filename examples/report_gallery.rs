@@ -231,6 +231,7 @@ fn record(run: &Run) -> RunRecord {
         preset: "default".to_owned(),
         robot: "turtlebot3_waffle".to_owned(),
         seed: Some(42),
+        slam: None,
         start: Pose::new(start.x, start.y, 0.0),
         end_reason: EndReason::Complete,
         end_message: "No frontier is left that the robot could get to.".to_owned(),

@@ -13,6 +13,7 @@ pub mod geometry;
 pub mod grid;
 pub mod io;
 pub mod mapping;
+pub mod matching;
 pub mod navigation;
 pub mod planning;
 pub mod range;

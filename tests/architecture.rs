@@ -19,6 +19,7 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
     ("selection", &[FLOOR_0]),
     ("planning", &[FLOOR_0]),
     ("control", &[FLOOR_0]),
+    ("matching", &[FLOOR_0]),
     // Floor 2: the pipeline.
     ("robot", &[FLOOR_0]),
     ("navigation", &[FLOOR_0, &["planning", "control", "robot"]]),
@@ -38,7 +39,7 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
 ];
 
 const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid", "tf"];
-const FLOOR_1: &[&str] = &["frontier", "selection", "planning", "control"];
+const FLOOR_1: &[&str] = &["frontier", "selection", "planning", "control", "matching"];
 const FLOOR_2: &[&str] = &["robot", "navigation", "explore", "config"];
 
 /// Rooms of floors 0 to 2, in which no clock is read.

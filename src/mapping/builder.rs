@@ -1,10 +1,9 @@
 //! The growing map: each scan is placed by odometry, matched, and taken in.
 
-use super::field::LikelihoodField;
-use super::matcher::{Match, Prior, match_scan};
 use crate::geometry::{Point, Pose, shortest_angle};
 use crate::grid::OccupancyGrid;
-use crate::scan::{BEYOND_ALL_LIDARS_M, LaserScan, Reading};
+use crate::matching::{LikelihoodField, Match, Prior, match_scan, thinned_hits};
+use crate::scan::{BEYOND_ALL_LIDARS_M, LaserScan};
 use crate::sim::{Mapper, MapperConfig, MapperError};
 
 /// How far a lidar is believed where nobody says otherwise, metres: a map of all that lies
@@ -80,14 +79,10 @@ impl MapBuilder {
         if way_m < filter_distance_m && turn_rad < filter_angle_rad && scan.stamp_s - last_s < filter_time_s {
             return Ok(told);
         }
-        let prior = Prior {
-            pose: told,
-            position_std_m: 0.03 + 0.2 * way_m + 0.05 * turn_rad,
-            heading_std_rad: 0.02 + 0.2 * turn_rad + 0.05 * way_m,
-        };
+        let prior = Prior::after_motion(&placed, &moved);
         let mut pose = told;
         if let (true, Some(field)) = (self.config.is_matching, &self.field) {
-            let points = self.points(mount, scan);
+            let points = thinned_hits(&self.limited(scan), mount, self.config.max_points);
             let Match { pose: matched, likelihood } = match_scan(field, &points, &prior);
             if points.len() >= 20 && likelihood >= self.config.min_likelihood {
                 pose = matched;
@@ -149,15 +144,6 @@ impl MapBuilder {
         } else {
             range
         }
-    }
-
-    /// The hits in the robot's frame, thinned evenly.
-    fn points(&self, mount: &Pose, scan: &LaserScan) -> Vec<Point> {
-        let cut = self.limited(scan);
-        let is_hit = |range: &&f32| matches!(cut.reading(**range), Reading::Hit(_));
-        let count = cut.ranges_m.iter().filter(is_hit).count();
-        let stride = count.div_ceil(self.config.max_points.max(1)).max(1);
-        cut.hits(mount).step_by(stride).collect()
     }
 }
 

@@ -4,10 +4,6 @@
 //! put. There is no loop closure, so that the error of a long way round remains.
 
 mod builder;
-mod field;
-mod matcher;
 
 pub use crate::sim::MapperError;
 pub use builder::{BuilderConfig, MapBuilder};
-pub use field::LikelihoodField;
-pub use matcher::{Match, Prior, match_scan};

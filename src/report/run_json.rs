@@ -31,6 +31,9 @@ pub struct RunRecord<D = DecisionRecord> {
     pub robot: String,
     /// The seed of all random numbers, if there were any.
     pub seed: Option<u64>,
+    /// How the simulated robot knew where it was, if that was not the perfect SLAM.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slam: Option<String>,
     /// Where the robot began, metres and radians in the map frame.
     pub start: Pose,
     /// Why the run ended.

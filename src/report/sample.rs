@@ -51,6 +51,7 @@ pub(super) fn run() -> RunRecord {
         preset: "ours".to_owned(),
         robot: "turtlebot3_waffle".to_owned(),
         seed: Some(7),
+        slam: None,
         start: Pose::new(1.0, 1.0, 0.0),
         end_reason: EndReason::Complete,
         end_message: "No frontier is left that the robot could get to.".to_owned(),

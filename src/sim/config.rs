@@ -1,6 +1,6 @@
 //! What a simulation is run with, besides its world and its robot.
 
-use super::OdometryNoise;
+use super::{DriverKind, MoveBaseConfig, OdometryNoise, SlamConfig, SlamKind};
 use crate::grid::{ThresholdError, Thresholds};
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
@@ -109,8 +109,15 @@ pub struct SimConfig {
     pub tick_period_s: f64,
     /// Instead of the lidar's own standard deviation, metres.
     pub lidar_noise_std_m: Option<f64>,
-    /// Errors of the wheels' odometry.
-    pub odometry_noise: OdometryNoise,
+    /// Errors of the wheels' odometry; when left out, none with a perfect SLAM and
+    /// [`OdometryNoise::SLIPPING`] with one that matches.
+    pub odometry_noise: Option<OdometryNoise>,
+    /// How the robot knows where it is.
+    pub slam: SlamConfig,
+    /// Who drives to goals.
+    pub driver: DriverKind,
+    /// The stand-in for move_base, where it drives.
+    pub move_base: MoveBaseConfig,
     /// The mapper.
     pub mapper: MapperConfig,
     /// What the robot's costmap takes for free and occupied.
@@ -124,7 +131,10 @@ impl Default for SimConfig {
             control_period_s: 0.1,
             tick_period_s: 0.2,
             lidar_noise_std_m: None,
-            odometry_noise: OdometryNoise::NONE,
+            odometry_noise: None,
+            slam: SlamConfig::default(),
+            driver: DriverKind::Navigator,
+            move_base: MoveBaseConfig::default(),
             mapper: MapperConfig::default(),
             thresholds: Thresholds::default(),
         }
@@ -132,6 +142,16 @@ impl Default for SimConfig {
 }
 
 impl SimConfig {
+    /// The errors of the wheels' odometry.
+    #[must_use]
+    pub fn odometry_noise(&self) -> OdometryNoise {
+        let usual = match self.slam.kind {
+            SlamKind::Perfect => OdometryNoise::NONE,
+            SlamKind::Matched => OdometryNoise::SLIPPING,
+        };
+        self.odometry_noise.unwrap_or(usual)
+    }
+
     /// Checks the numbers.
     ///
     /// # Errors
@@ -140,12 +160,14 @@ impl SimConfig {
         period("control_period_s", self.control_period_s)?;
         period("tick_period_s", self.tick_period_s)?;
         OutOfRange::unless_not_negative("lidar_noise_std_m", self.lidar_noise_std_m.unwrap_or(0.0))?;
-        let OdometryNoise { turn_by_turn, turn_by_drive, drive_by_drive, drive_by_turn } = self.odometry_noise;
+        let OdometryNoise { turn_by_turn, turn_by_drive, drive_by_drive, drive_by_turn } = self.odometry_noise();
         OutOfRange::unless_not_negative("odometry_noise.turn_by_turn", turn_by_turn)?;
         OutOfRange::unless_not_negative("odometry_noise.turn_by_drive", turn_by_drive)?;
         OutOfRange::unless_not_negative("odometry_noise.drive_by_drive", drive_by_drive)?;
         OutOfRange::unless_not_negative("odometry_noise.drive_by_turn", drive_by_turn)?;
         self.mapper.validate()?;
+        self.slam.validate()?;
+        self.move_base.validate()?;
         Ok(self.thresholds.validate()?)
     }
 }

@@ -1,14 +1,17 @@
 //! The simulated robot without a mind: a body in a world, its lidar, and the mapper that
 //! sees through it. Somebody else decides where it drives.
 //!
-//! The pose in the map is the true one, as of a SLAM that never errs; what a map shows
-//! is what the lidar has seen of the world, published once in a while. The map frame is
-//! the world's.
+//! What a map shows is what the lidar has seen of the world, published once in a while.
+//! The map frame is the world's: with a perfect SLAM ([`super::SlamKind`]) in truth, with
+//! one that matches scans as far as its estimate goes, and then the pose in the map is what
+//! the robot believes. The body moves by the true one. Coverage counts the cells that the
+//! map shows as known where they lie in the map's frame, so that an error of the frame
+//! hides or adds no more than a rim as wide as the error.
 
-use super::motion_filter::MotionFilter;
 use super::schedule::{Micros, Periodic, micros, seconds};
+use super::slam::{Slam, Sweep};
 use super::{
-    Coverage, DiffDrive, Lidar, Mapper, MapperError, Odometry, SimConfig, SimConfigError, TargetArea, World, WorldError,
+    Coverage, DiffDrive, Lidar, MapperError, Odometry, SimConfig, SimConfigError, TargetArea, World, WorldError,
 };
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
@@ -75,16 +78,13 @@ pub struct Plant {
     world: Arc<World>,
     body: DiffDrive,
     lidar: Lidar,
-    mapper: Mapper,
+    slam: Slam,
+    mount: Pose,
     target: TargetArea,
     coverage: Coverage,
     now: Micros,
     sweep: Periodic,
-    publish: Periodic,
-    scan: (Pose, Arc<LaserScan>),
-    /// Whether the map shows that scan.
-    is_mapped: bool,
-    filter: MotionFilter,
+    newest: Sweep,
     published: Published,
 }
 
@@ -98,19 +98,15 @@ impl Plant {
     pub fn new(world: Arc<World>, robot: &RobotConfig, config: SimConfig, start: Pose) -> Result<Self, SimError> {
         config.validate()?;
         let target = TargetArea::new(&world, &robot.footprint, &start)?;
-        let odometry = Odometry::new(config.odometry_noise, config.seed);
+        let odometry = Odometry::new(config.odometry_noise(), config.seed);
         let body = DiffDrive::new(&world, &robot.footprint, robot.limits, start, odometry);
         let mut lidar_config = robot.lidar;
         lidar_config.noise_std_m = config.lidar_noise_std_m.unwrap_or(lidar_config.noise_std_m);
         let mut lidar = Lidar::new(lidar_config, config.seed);
-        let mut mapper = Mapper::new(config.mapper, start.position(), world.info().origin_in_map().position())?;
         let inflation = robot.inflation();
-        let lidar_pose = lidar.pose(&start);
-        let scan = (lidar_pose, Arc::new(lidar.sweep(&world, &lidar_pose, 0.0)));
-        mapper.integrate(&scan.0, &scan.1)?;
-        let mut filter = MotionFilter::default();
-        filter.accepts(&lidar_pose, 0.0, &config.mapper);
-        let grid = mapper.publish()?;
+        let newest = take_sweep(&mut lidar, &world, &body, 0.0);
+        let anchor = world.info().origin_in_map().position();
+        let (slam, grid) = Slam::begin(&config, &start, anchor, lidar_config.mount, &newest)?;
         let costmap = Costmap::inflate(&grid, &config.thresholds, &inflation);
         let published = Published { stamp_s: 0.0, version: 1, grid, costmap: Arc::new(costmap) };
         let mut coverage = Coverage::new(&target);
@@ -121,20 +117,17 @@ impl Plant {
             world,
             body,
             lidar,
-            mapper,
+            slam,
+            mount: lidar_config.mount,
             target,
             coverage,
             now: 0,
             sweep: Periodic::every_s(1.0 / lidar_config.rate_hz),
-            publish: Periodic::every_s(config.mapper.publish_period_s),
-            scan,
-            is_mapped: true,
-            filter,
+            newest,
             published,
         };
         // What falls on time 0 has just been done.
         this.sweep.is_due(0);
-        this.publish.is_due(0);
         Ok(this)
     }
 
@@ -147,7 +140,7 @@ impl Plant {
             turned_rad: self.body.turned_rad(),
             collisions: self.body.collisions(),
             coverage: self.coverage.share(),
-            known_area_m2: self.mapper.known_area_m2(),
+            known_area_m2: self.slam.known_area_m2(),
             target_area_m2: self.target.area_m2(),
         }
     }
@@ -158,10 +151,28 @@ impl Plant {
         seconds(self.now)
     }
 
-    /// The true pose in the world, whose frame is the map's.
+    /// The true pose in the world, whose frame is the map's. No robot knows it.
     #[must_use]
     pub const fn pose(&self) -> Pose {
         self.body.pose()
+    }
+
+    /// Where the robot believes it is in the map, as late as it knows.
+    #[must_use]
+    pub fn pose_in_map(&self) -> Pose {
+        self.slam.pose_in_map(&self.body.pose(), self.now)
+    }
+
+    /// How late that pose is, seconds.
+    #[must_use]
+    pub fn pose_lateness_s(&self) -> f64 {
+        self.slam.lateness_s()
+    }
+
+    /// Where the odometry's frame is believed to lie in the map.
+    #[must_use]
+    pub fn map_from_odom(&self) -> Pose {
+        self.slam.map_from_odom(&self.body.pose(), &self.body.pose_in_odom())
     }
 
     /// How it moves.
@@ -200,10 +211,20 @@ impl Plant {
         self.published.version
     }
 
-    /// The newest scan with the lidar's pose in the map frame.
+    /// The newest scan with the lidar's pose in the map frame, as far as that is known.
     #[must_use]
-    pub const fn scan(&self) -> &(Pose, Arc<LaserScan>) {
-        &self.scan
+    pub fn scan(&self) -> (Pose, &Arc<LaserScan>) {
+        let lidar_in_map = match &self.slam {
+            Slam::Perfect(_) => self.newest.lidar_in_world,
+            Slam::Matched(_) => self.map_from_odom().compose(&self.lidar_in_odom()),
+        };
+        (lidar_in_map, &self.newest.scan)
+    }
+
+    /// Where the lidar was in the odometry's frame when it took that scan.
+    #[must_use]
+    pub fn lidar_in_odom(&self) -> Pose {
+        self.newest.base_in_odom.compose(&self.mount)
     }
 
     /// The world it lives in.
@@ -234,13 +255,14 @@ impl Plant {
     }
 
     pub(super) fn next(&self) -> Micros {
-        self.sweep.next().min(self.publish.next())
+        self.sweep.next().min(self.slam.next())
     }
 
     pub(super) fn drive(&mut self, twist: &Twist, end: Micros) {
         if end > self.now {
             self.body.drive(&self.world, twist, seconds(end - self.now));
             self.now = end;
+            self.slam.note(&self.body.pose_in_odom(), end);
         }
     }
 
@@ -249,33 +271,32 @@ impl Plant {
     /// # Errors
     /// [`MapperError`] when the map cannot grow any more.
     pub fn happen(&mut self) -> Result<Happened, MapperError> {
-        let stamp_s = seconds(self.now);
-        let happened = Happened { scan: self.sweep.is_due(self.now), map: self.publish.is_due(self.now) };
+        let mut happened = Happened { scan: self.sweep.is_due(self.now), map: false };
         if happened.scan {
-            let pose = self.lidar.pose(&self.body.pose());
-            self.scan = (pose, Arc::new(self.lidar.sweep(&self.world, &pose, stamp_s)));
-            self.is_mapped = self.filter.accepts(&pose, stamp_s, &self.config.mapper);
-            if self.is_mapped {
-                self.mapper.integrate(&pose, &self.scan.1)?;
-            }
+            self.newest = take_sweep(&mut self.lidar, &self.world, &self.body, seconds(self.now));
+            self.slam.add(&self.newest, self.now)?;
         }
-        if happened.map {
-            // A map shows all that was sensed before its stamp.
-            if !std::mem::replace(&mut self.is_mapped, true) {
-                self.mapper.integrate(&self.scan.0, &self.scan.1)?;
-            }
-            let grid = self.mapper.publish()?;
-            self.published.stamp_s = stamp_s;
+        if let Some(map) = self.slam.publish(&self.newest, self.now)? {
+            happened.map = true;
+            self.published.stamp_s = map.stamp_s;
             self.published.version += 1;
             // On known ground nothing changes for long, and inflating takes its time.
-            if grid != self.published.grid {
+            if map.grid != self.published.grid {
                 let Published { version, grid: old, costmap, .. } = &self.published;
                 let version = *version;
-                let costmap = costmap.reinflate(old, &grid, &self.config.thresholds, &self.inflation);
+                let costmap = costmap.reinflate(old, &map.grid, &self.config.thresholds, &self.inflation);
+                let (stamp_s, grid) = (map.stamp_s, map.grid);
                 self.published = Published { stamp_s, version, grid, costmap: Arc::new(costmap) };
                 self.coverage.update(&self.published.grid);
             }
         }
         Ok(happened)
     }
+}
+
+/// A sweep from where the body is.
+fn take_sweep(lidar: &mut Lidar, world: &World, body: &DiffDrive, stamp_s: f64) -> Sweep {
+    let lidar_in_world = lidar.pose(&body.pose());
+    let scan = Arc::new(lidar.sweep(world, &lidar_in_world, stamp_s));
+    Sweep { lidar_in_world, base_in_odom: body.pose_in_odom(), scan }
 }

@@ -1,12 +1,11 @@
-//! The simulated robot behind the port that the explorer knows: a plant, and the
-//! navigator that drives it.
+//! The simulated robot behind the port that the explorer knows: a plant, and who drives it.
 
 use super::schedule::{Micros, Periodic, seconds};
-use super::{MapperError, Plant, SimConfig, SimError, SimStats, TargetArea, World};
+use super::{Driver, MapperError, Plant, SimConfig, SimError, SimStats, TargetArea, World};
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
 use crate::grid::OccupancyGrid;
-use crate::navigation::{NavigationInput, Navigator};
+use crate::navigation::Navigator;
 use crate::planning::Path;
 use crate::robot::{Command, MapSnapshot, Navigation, NavigationState, Observation, Robot, RobotError};
 use std::sync::Arc;
@@ -14,7 +13,8 @@ use std::sync::Arc;
 /// The simulated robot.
 pub struct SimRobot {
     plant: Plant,
-    navigator: Navigator,
+    driver: Driver,
+    control_period_s: f64,
     tick: Periodic,
     control: Periodic,
     twist_command: Twist,
@@ -23,7 +23,8 @@ pub struct SimRobot {
 
 impl SimRobot {
     /// A robot at rest at a pose of the world, with its first scan taken and its
-    /// first map published. `robot` is a validated configuration, and `navigator`
+    /// first map published. `robot` is a validated configuration, and `navigator`, which drives
+    /// where no stand-in for move_base does,
     /// was made for `config.control_period_s`.
     ///
     /// # Errors
@@ -38,7 +39,8 @@ impl SimRobot {
     ) -> Result<Self, SimError> {
         Ok(Self {
             plant: Plant::new(world, robot, config, start)?,
-            navigator,
+            driver: Driver::new(config.driver, config.move_base, robot, config.seed, navigator),
+            control_period_s: config.control_period_s,
             tick: Periodic::every_s(config.tick_period_s),
             control: Periodic::every_s(config.control_period_s),
             twist_command: Twist::ZERO,
@@ -58,6 +60,18 @@ impl SimRobot {
         self.plant.pose()
     }
 
+    /// Where the robot believes it is in the map.
+    #[must_use]
+    pub fn pose_in_map(&self) -> Pose {
+        self.plant.pose_in_map()
+    }
+
+    /// Where the odometry's frame is believed to lie in the map.
+    #[must_use]
+    pub fn map_from_odom(&self) -> Pose {
+        self.plant.map_from_odom()
+    }
+
     /// Where the wheels believe the robot is, from its start at the origin.
     #[must_use]
     pub const fn pose_in_odom(&self) -> Pose {
@@ -73,7 +87,7 @@ impl SimRobot {
     /// The path being followed, if any.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
-        self.navigator.path()
+        self.driver.path()
     }
 
     /// The world it lives in.
@@ -105,16 +119,7 @@ impl SimRobot {
     }
 
     fn steer(&mut self) {
-        let (lidar_in_map, scan) = self.plant.scan();
-        let input = NavigationInput {
-            stamp_s: self.plant.now_s(),
-            pose_in_map: self.plant.pose(),
-            twist: self.plant.twist(),
-            costmap: self.plant.costmap(),
-            costmap_stamp_s: self.plant.map_stamp_s(),
-            scan: Some((lidar_in_map, scan)),
-        };
-        (self.twist_command, self.navigation) = self.navigator.update(&input);
+        (self.twist_command, self.navigation) = self.driver.update(&self.plant, self.control_period_s);
     }
 }
 
@@ -127,20 +132,20 @@ impl Robot for SimRobot {
         let (lidar_in_map, scan) = self.plant.scan();
         Ok(Observation {
             stamp_s: seconds(self.plant.now()),
-            pose_in_map: Ok(self.plant.pose()),
+            pose_in_map: Ok(self.plant.pose_in_map()),
             map: Some(MapSnapshot {
                 stamp_s: self.plant.map_stamp_s(),
                 version: self.plant.map_version(),
                 grid: Arc::clone(self.plant.map()),
                 costmap: Some(Arc::clone(self.plant.costmap())),
             }),
-            scan: Some((*lidar_in_map, Arc::clone(scan))),
+            scan: Some((lidar_in_map, Arc::clone(scan))),
             navigation: self.navigation.clone(),
         })
     }
 
     fn command(&mut self, command: &Command) -> Result<(), RobotError> {
-        self.navigator.command(command);
+        self.driver.command(command, self.plant.now_s());
         Ok(())
     }
 }

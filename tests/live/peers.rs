@@ -101,7 +101,7 @@ fn unsaved_map(world: &World) {
     };
     health.expect(SOON, "an error at the start", |m| is_error(m, "cannot write /nowhere/at/all/map.pgm"));
     status.expect(SOON, "a status with it", |m| m.message.contains("cannot write /nowhere/at/all/map.pgm"));
-    let _sim = world.simulate(&[]);
+    let _sim = world.simulate_kindly(&[]);
     explore.expect_code(1, DEADLINE);
     let end = status.expect(SOON, "the end", |m| {
         m.phase == ExplorationStatus::ENDED && m.message.contains("the map is not saved: cannot write")

@@ -1,8 +1,9 @@
-//! Clocks, transforms and scans that go wrong.
+//! Clocks, transforms and scans that go wrong. Stamps are moved by tenths of a second here:
+//! the simulator is the kind one, whose own are exact.
 
 use crate::relay::{Relays, later};
 use crate::rig::{DEADLINE, Heard, Process, eventually};
-use crate::{SOON, Test, World};
+use crate::{KIND, SOON, Test, World};
 use frontier_explorer::ros::msg::actionlib_msgs::GoalID;
 use frontier_explorer::ros::msg::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
@@ -26,6 +27,7 @@ fn drives_itself(world: &World) -> (Relays, Process, Process) {
     let relays = Relays::new(&world.probe);
     let mut args = vec!["_world:=office", "_start:=[]", "_speed:=1.0", "_move_base:=false"];
     args.extend(Relays::REMAPPINGS);
+    args.extend(KIND);
     let sim = world.simulate(&args);
     let explore = world.explore(&["_navigation:={drive: internal}", "_explorer:={turns: {at_start: false}}"]);
     (relays, sim, explore)
@@ -179,6 +181,7 @@ fn late_for_an_instant(world: &World) {
     let relays = Relays::new(&world.probe);
     let mut args = vec!["_world:=office", "_start:=[]", "_speed:=1.0"];
     args.extend(Relays::REMAPPINGS);
+    args.extend(KIND);
     let _sim = world.simulate(&args);
     let explore = world.explore(&["_explorer:={turns: {at_start: false}}"]);
     status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);

@@ -6,7 +6,7 @@ use frontier_explorer::explore::Explorer;
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::OccupancyGrid;
 use frontier_explorer::navigation::Navigator;
-use frontier_explorer::sim::{MapStyle, SimConfig, SimRobot, World};
+use frontier_explorer::sim::{DriverKind, MapStyle, SimConfig, SimRobot, SlamKind, World};
 use std::sync::Arc;
 
 /// A world that runs can share.
@@ -43,6 +43,14 @@ pub struct Plan {
     pub map_style: MapStyle,
     /// Standard deviation of ranges, metres, instead of the lidar's own.
     pub lidar_noise_std_m: Option<f64>,
+    /// How the robot knows where it is.
+    pub slam: SlamKind,
+}
+
+/// Reads the name of a SLAM.
+pub fn parse_slam(text: &str) -> Result<SlamKind, String> {
+    let kinds = [SlamKind::Perfect, SlamKind::Matched];
+    kinds.into_iter().find(|kind| kind.name() == text).ok_or_else(|| "must be perfect or matched".to_owned())
 }
 
 impl Plan {
@@ -67,6 +75,11 @@ impl Plan {
             ..SimConfig::default()
         };
         config.mapper.style = self.map_style;
+        config.slam.kind = self.slam;
+        config.driver = match self.slam {
+            SlamKind::Perfect => DriverKind::Navigator,
+            SlamKind::Matched => DriverKind::MoveBase,
+        };
         // The cells of the world: then coverage and maps compare cell by cell.
         config.mapper.resolution_m = self.world.world.info().resolution_m();
         config

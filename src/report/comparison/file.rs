@@ -137,6 +137,7 @@ impl Comparison {
         let (ours, theirs) = (&self.plan, &part.plan);
         let same = [
             ("robot and time limit", (&ours.robot, ours.time_limit_s) == (&theirs.robot, theirs.time_limit_s)),
+            ("SLAM", ours.slam == theirs.slam),
             ("presets", ours.presets == theirs.presets),
             ("worlds", ours.worlds == theirs.worlds),
             ("seeds", ours.seeds == theirs.seeds),

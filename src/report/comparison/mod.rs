@@ -48,6 +48,9 @@ pub struct ComparedPreset {
 pub struct ComparisonPlan {
     /// The robot's name.
     pub robot: String,
+    /// How the simulated robot knew where it was, if that was not the perfect SLAM.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slam: Option<String>,
     /// When runs are ended, seconds of the simulation.
     pub time_limit_s: Option<f64>,
     /// How to explore.

@@ -24,6 +24,7 @@ pub fn plan(presets: &[&str], worlds: &[&str], seeds: &[u64]) -> ComparisonPlan 
     };
     ComparisonPlan {
         robot: "robot".to_owned(),
+        slam: None,
         time_limit_s: Some(1000.0),
         presets: presets.iter().map(preset).collect(),
         worlds: worlds.iter().map(world).collect(),

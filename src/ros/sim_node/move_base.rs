@@ -1,6 +1,11 @@
-//! A stand-in for move_base: its action, `make_plan`, `clear_costmaps`, and the global
-//! costmap. It plans and drives with our own navigator, so it shows that the node speaks
-//! move_base's protocol, and says nothing of how well the real one drives.
+//! The topics and services of move_base: its action, `make_plan`, `clear_costmaps`, and the
+//! global costmap. Who plans and drives behind them is a [`Driver`]: the stand-in that fails
+//! as the real one, or our own navigator.
+//!
+//! As in move_base, `make_plan` answers false while a goal is active, and true with an empty
+//! path where there is no way; it looks for a goal within the tolerance of the request in
+//! squares three cells apart. Costs are published once a second, first whole, then what has
+//! changed.
 
 use super::super::convert;
 use super::super::feed::Feed;
@@ -17,10 +22,9 @@ use super::goal_book::{Entry, GoalBook};
 use super::params::Fault;
 use crate::geometry::{Pose, Twist};
 use crate::grid::{Costmap, GridPatch, OccupancyGrid};
-use crate::navigation::{NavigationInput, Navigator};
-use crate::planning::GlobalPlanner;
+use crate::planning::{GlobalPlanner, Path};
 use crate::robot::{Command, CommandId, NavigationState};
-use crate::sim::Plant;
+use crate::sim::{Driver, Plant};
 use rosrust::{Publisher, Service};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -33,6 +37,8 @@ const FEEDBACK_PERIOD: Duration = Duration::from_millis(100);
 const LOOK: Duration = Duration::from_secs(30);
 /// The frame of goals and plans.
 const MAP: &str = "map";
+/// From one costmap to the next, simulated seconds (`publish_frequency`).
+const COSTMAP_PERIOD_S: f64 = 1.0;
 
 /// What has come from clients.
 enum Order {
@@ -51,7 +57,7 @@ struct Plans {
 /// The action server.
 pub struct MoveBaseServer {
     node: Node,
-    navigator: Navigator,
+    driver: Driver,
     book: GoalBook,
     commands: CommandId,
     orders: Arc<Mutex<Vec<Order>>>,
@@ -64,6 +70,7 @@ pub struct MoveBaseServer {
     costmap: Publisher<GridMessage>,
     updates: Publisher<OccupancyGridUpdate>,
     published: Option<OccupancyGrid>,
+    costmap_at_s: f64,
     next_status: Instant,
     next_feedback: Instant,
     _feeds: Vec<Feed>,
@@ -77,7 +84,7 @@ impl MoveBaseServer {
     /// [`NodeError`] when something cannot be offered.
     pub fn offer(
         node: &Node,
-        navigator: Navigator,
+        driver: Driver,
         planner: Box<dyn GlobalPlanner>,
         plant: &Plant,
     ) -> Result<Self, NodeError> {
@@ -85,11 +92,11 @@ impl MoveBaseServer {
         let plans = Arc::new(Mutex::new(Plans {
             planner,
             costmap: Arc::clone(plant.costmap()),
-            pose: plant.pose(),
+            pose: plant.pose_in_map(),
             is_busy: false,
         }));
         Ok(Self {
-            navigator,
+            driver,
             book: GoalBook::default(),
             commands: 0,
             status: node.publish("move_base/status", 10)?,
@@ -100,6 +107,7 @@ impl MoveBaseServer {
             costmap: node.publish_latched("move_base/global_costmap/costmap")?,
             updates: node.publish("move_base/global_costmap/costmap_updates", 10)?,
             published: None,
+            costmap_at_s: 0.0,
             next_status: Instant::now(),
             next_feedback: Instant::now(),
             _feeds: listen(node, &orders),
@@ -110,30 +118,28 @@ impl MoveBaseServer {
         })
     }
 
-    /// Takes orders, and gives the velocity until the next control tick.
-    pub fn control(&mut self, plant: &Plant, stamp_s: f64, fault: Fault) -> Option<Twist> {
-        self.take_orders(stamp_s, fault);
-        self.book.active()?;
-        if fault == Fault::AbortGoals {
-            self.finish(GoalStatus::ABORTED, "aborted by a fault that was switched on", stamp_s);
+    /// Takes orders, and gives the velocity until the next control tick, `dt_s` seconds on.
+    pub fn control(&mut self, plant: &Plant, dt_s: f64, stamp_s: f64, fault: Fault) -> Option<Twist> {
+        self.take_orders(plant.now_s(), stamp_s, fault);
+        if self.book.active().is_some() && fault == Fault::AbortGoals {
+            self.finish(GoalStatus::ABORTED, "aborted by a fault that was switched on", plant.now_s(), stamp_s);
             return Some(Twist::ZERO);
         }
         if matches!(fault, Fault::Hang | Fault::DeadMoveBase) {
-            return Some(Twist::ZERO);
+            return self.book.active().map(|_| Twist::ZERO);
         }
-        let (lidar_in_map, scan) = plant.scan();
-        let input = NavigationInput {
-            stamp_s: plant.now_s(),
-            pose_in_map: plant.pose(),
-            twist: plant.twist(),
-            costmap: plant.costmap(),
-            costmap_stamp_s: plant.map_stamp_s(),
-            scan: Some((lidar_in_map, scan)),
-        };
-        let (twist, navigation) = self.navigator.update(&input);
+        let (twist, navigation) = self.driver.update(plant, dt_s);
+        if plant.now_s() >= self.costmap_at_s {
+            self.costmap_at_s = plant.now_s() + COSTMAP_PERIOD_S;
+            let costmap = Arc::clone(self.driver.costmap(plant));
+            self.show_costmap(&costmap, stamp_s);
+        }
+        self.book.active()?;
         match navigation.state {
-            NavigationState::Succeeded => self.finish(GoalStatus::SUCCEEDED, "Goal reached.", stamp_s),
-            NavigationState::Aborted(why) => self.finish(GoalStatus::ABORTED, &why, stamp_s),
+            NavigationState::Succeeded => {
+                self.finish(GoalStatus::SUCCEEDED, "Goal reached.", plant.now_s(), stamp_s);
+            }
+            NavigationState::Aborted(why) => self.finish(GoalStatus::ABORTED, &why, plant.now_s(), stamp_s),
             _ => {}
         }
         Some(twist)
@@ -152,24 +158,24 @@ impl MoveBaseServer {
         }
         if let (true, Some(active)) = (now >= self.next_feedback, self.book.active()) {
             self.next_feedback = now + FEEDBACK_PERIOD;
-            let base_position = convert::stamped(&plant.pose(), MAP, stamp_s);
+            let base_position = convert::stamped(&plant.pose_in_map(), MAP, stamp_s);
             let _ = self.feedback.send(MoveBaseActionFeedback {
                 header: convert::header("", stamp_s),
                 status: active.message(),
                 feedback: MoveBaseFeedback { base_position },
             });
         }
-        if let Some(path) = self.navigator.path() {
+        if let Some(path) = self.driver.path() {
             let _ = self.plan.send(convert::path_message(path, MAP, stamp_s));
         }
         let mut plans = lock(&self.plans);
-        plans.costmap = Arc::clone(plant.costmap());
-        plans.pose = plant.pose();
+        plans.costmap = Arc::clone(self.driver.costmap(plant));
+        plans.pose = plant.pose_in_map();
         plans.is_busy = self.book.active().is_some();
     }
 
-    /// Publishes the costmap of a new map: what changed, where the size is the same.
-    pub fn show_costmap(&mut self, costmap: &Costmap, stamp_s: f64) {
+    /// Publishes the costmap: what changed, where the size is the same.
+    fn show_costmap(&mut self, costmap: &Costmap, stamp_s: f64) {
         let new = costmap.to_published();
         match &self.published {
             Some(old) if old.info() == new.info() => {
@@ -187,7 +193,7 @@ impl MoveBaseServer {
         self.published = Some(new);
     }
 
-    fn take_orders(&mut self, stamp_s: f64, fault: Fault) {
+    fn take_orders(&mut self, sim_s: f64, stamp_s: f64, fault: Fault) {
         let orders = std::mem::take(&mut *self.orders.lock().unwrap_or_else(PoisonError::into_inner));
         if fault == Fault::DeadMoveBase {
             return;
@@ -199,13 +205,13 @@ impl MoveBaseServer {
                     let replaced = self.book.accept(id, now_s);
                     self.tell_result(replaced, stamp_s);
                     self.commands += 1;
-                    self.navigator.command(&Command::Drive { id: self.commands, goal_in_map });
+                    self.driver.drive(self.commands, goal_in_map, sim_s);
                     let _ = self.current_goal.send(convert::stamped(&goal_in_map, MAP, stamp_s));
                 }
                 Order::Cancel(id) => {
                     let cancelled = self.book.cancel(&id, now_s);
                     if cancelled.is_some() {
-                        self.navigator.command(&Command::Hold);
+                        self.driver.command(&Command::Hold, sim_s);
                     }
                     self.tell_result(cancelled, stamp_s);
                 }
@@ -213,8 +219,8 @@ impl MoveBaseServer {
         }
     }
 
-    fn finish(&mut self, status: u8, text: &str, stamp_s: f64) {
-        self.navigator.command(&Command::Hold);
+    fn finish(&mut self, status: u8, text: &str, sim_s: f64, stamp_s: f64) {
+        self.driver.command(&Command::Hold, sim_s);
         let ended = self.book.end(status, text, self.node.wall_s());
         self.tell_result(ended, stamp_s);
     }
@@ -262,14 +268,31 @@ fn serve(node: &Node, plans: &Arc<Mutex<Plans>>) -> Result<Vec<Service>, NodeErr
         let start =
             if request.start.header.frame_id.is_empty() { plans.pose } else { convert::pose(&request.start.pose) };
         let goal = convert::pose(&request.goal.pose);
-        let plan = match plans.planner.plan(&plans.costmap, &start, &goal) {
-            Ok(path) => convert::path_message(&path, MAP, 0.0),
-            Err(_) => PathMessage::default(),
-        };
+        let plan = plan_within(plans, &start, &goal, f64::from(request.tolerance))
+            .map_or_else(PathMessage::default, |path| convert::path_message(&path, MAP, 0.0));
         Ok(GetPlanRes { plan })
     })?;
     let clear = node.serve::<std_srvs::Empty>("move_base/clear_costmaps", |_| Ok(std_srvs::EmptyRes {}))?;
     Ok(vec![make_plan, clear])
+}
+
+/// A plan to a goal, or else to the nearest square around it, three cells apart, up to a
+/// tolerance in metres, as move_base looks for one.
+fn plan_within(plans: &mut Plans, start: &Pose, goal: &Pose, tolerance_m: f64) -> Option<Path> {
+    let Plans { planner, costmap, .. } = plans;
+    let mut plan = |x: f64, y: f64| planner.plan(costmap, start, &Pose::new(goal.x + x, goal.y + y, goal.yaw)).ok();
+    if let Some(path) = plan(0.0, 0.0) {
+        return Some(path);
+    }
+    let usual_m = 3.0 * costmap.info().resolution_m();
+    let step_m = if tolerance_m > 0.0 && tolerance_m < usual_m { tolerance_m } else { usual_m };
+    // No tolerance that makes sense is farther.
+    let rings = (tolerance_m / step_m + 1e-6).clamp(0.0, 100.0) as i32;
+    (1..=rings).find_map(|ring| {
+        let square = (-ring..=ring).flat_map(|y| (-ring..=ring).map(move |x| (x, y)));
+        let rim = square.filter(|&(x, y): &(i32, i32)| x.abs().max(y.abs()) == ring);
+        rim.map(|(x, y)| (f64::from(x) * step_m, f64::from(y) * step_m)).find_map(|(x, y)| plan(x, y))
+    })
 }
 
 fn lock(plans: &Mutex<Plans>) -> MutexGuard<'_, Plans> {

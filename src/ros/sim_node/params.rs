@@ -3,7 +3,7 @@
 use crate::config::{ParamError, read_params};
 use crate::geometry::Pose;
 use crate::range::OutOfRange;
-use crate::sim::MapStyle;
+use crate::sim::{DriverKind, MapStyle, SlamKind};
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -56,8 +56,13 @@ pub struct SimParams {
     pub world: String,
     /// A built-in robot, or a YAML file.
     pub robot: String,
-    /// The preset whose `navigation` and planner drive move_base's stand-in.
+    /// The preset whose `navigation` and planner drive where our own navigator does.
     pub config: String,
+    /// How the robot knows where it is: `matched`, with errors as gmapping's, or `perfect`.
+    pub slam: SlamKind,
+    /// Who drives behind move_base's topics: `move_base`, a stand-in that refuses and fails
+    /// as the real one, or `navigator`, our own, which is kind.
+    pub driver: DriverKind,
     /// Where the robot begins: x, y and yaw in metres and radians; the most open spot
     /// when empty.
     pub start: Vec<f64>,
@@ -69,8 +74,9 @@ pub struct SimParams {
     pub map_style: MapStyle,
     /// Standard deviation of the lidar's ranges, metres, instead of the robot's own.
     pub lidar_noise: Option<f64>,
-    /// Errors of the odometry: the four alphas of *Probabilistic Robotics*.
-    pub odometry_noise: [f64; 4],
+    /// Errors of the odometry: the four alphas of *Probabilistic Robotics*; those of the
+    /// SLAM's kind when left out.
+    pub odometry_noise: Option<[f64; 4]>,
     /// Whether a stand-in for move_base runs.
     pub move_base: bool,
     /// The robot's frame.
@@ -85,12 +91,14 @@ impl Default for SimParams {
             world: "office".to_owned(),
             robot: "turtlebot2".to_owned(),
             config: "wfd".to_owned(),
+            slam: SlamKind::Matched,
+            driver: DriverKind::MoveBase,
             start: Vec::new(),
             speed: 1.0,
             seed: 1,
             map_style: MapStyle::Gmapping,
             lidar_noise: None,
-            odometry_noise: [0.0; 4],
+            odometry_noise: None,
             move_base: true,
             base_frame: "base_link".to_owned(),
             fault: Fault::None,
@@ -108,7 +116,7 @@ impl SimParams {
         let speed = params.speed;
         OutOfRange::unless((0.1..=100.0).contains(&speed), "speed", speed, "within 0.1 to 100")?;
         OutOfRange::unless_not_negative("lidar_noise", params.lidar_noise.unwrap_or(0.0))?;
-        for value in params.odometry_noise {
+        for value in params.odometry_noise.into_iter().flatten() {
             OutOfRange::unless_not_negative("odometry_noise", value)?;
         }
         params.start_pose()?;
@@ -143,6 +151,9 @@ mod tests {
     fn defaults_and_mistakes() {
         assert_eq!(SimParams::from_tree(json!({})).unwrap(), SimParams::default());
         let some = SimParams::from_tree(json!({"start": [1.5, 7.9], "speed": 4, "map_style": "cartographer"})).unwrap();
+        assert_eq!((some.slam, some.driver), (SlamKind::Matched, DriverKind::MoveBase));
+        let kind = SimParams::from_tree(json!({"slam": "perfect", "driver": "navigator"})).unwrap();
+        assert_eq!((kind.slam, kind.driver), (SlamKind::Perfect, DriverKind::Navigator));
         assert_eq!(some.start_pose().unwrap(), Some(Pose::new(1.5, 7.9, 0.0)));
         let error = |tree| SimParams::from_tree(tree).unwrap_err().to_string();
         assert_eq!(error(json!({"speed": 0})), "parameter ~speed is 0: must be within 0.1 to 100");

@@ -88,14 +88,14 @@ impl Topics {
 
     /// Tells the newest scan, taken at a time.
     pub fn tell_scan(&self, plant: &Plant, stamp_s: f64) {
-        let mut message = convert::scan_message(&plant.scan().1, SCAN, self.scan_period_s);
+        let mut message = convert::scan_message(plant.scan().1, SCAN, self.scan_period_s);
         message.header.stamp = convert::time(stamp_s);
         let _ = self.scan.send(message);
     }
 
     /// Tells odometry, and the frames unless they are held back.
     pub fn tell_odometry(&self, plant: &Plant, stamp_s: f64, with_tf: bool) {
-        let (in_odom, in_map) = (plant.pose_in_odom(), plant.pose());
+        let in_odom = plant.pose_in_odom();
         let twist = convert::twist_message(&plant.twist());
         let _ = self.odometry.send(OdometryMessage {
             header: convert::header(ODOM, stamp_s),
@@ -104,9 +104,12 @@ impl Topics {
             twist: TwistWithCovariance { twist, covariance: [0.0; 36] },
         });
         if with_tf {
-            let odom_in_map = in_map.compose(&in_odom.inverse());
-            let transforms =
-                vec![transform(MAP, ODOM, &odom_in_map, stamp_s), transform(ODOM, &self.base_frame, &in_odom, stamp_s)];
+            // What is known late is stamped by when it was true.
+            let known_s = stamp_s - plant.pose_lateness_s();
+            let transforms = vec![
+                transform(MAP, ODOM, &plant.map_from_odom(), known_s),
+                transform(ODOM, &self.base_frame, &in_odom, stamp_s),
+            ];
             let _ = self.tf.send(TFMessage { transforms });
         }
     }

@@ -94,7 +94,11 @@ fn the_same_seed_gives_the_same_run_byte_for_byte() {
     let config = SimConfig {
         seed: 5,
         lidar_noise_std_m: Some(0.01),
-        odometry_noise: crate::sim::OdometryNoise { turn_by_turn: 0.1, drive_by_drive: 0.1, ..Default::default() },
+        odometry_noise: Some(crate::sim::OdometryNoise {
+            turn_by_turn: 0.1,
+            drive_by_drive: 0.1,
+            ..Default::default()
+        }),
         ..SimConfig::default()
     };
     let run = |config| {

@@ -9,11 +9,13 @@ mod worlds;
 
 use super::explore::robot_help;
 use crate::exit::Outcome;
+use crate::simulation::parse_slam;
 use crate::{inputs, output, stop, values};
 use anyhow::{Context, bail};
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::io::{BUILT_IN_WORLDS, write_atomic};
 use frontier_explorer::report::{ComparedPreset, Comparison, ComparisonPlan};
+use frontier_explorer::sim::SlamKind;
 use progress::Progress;
 use runner::Runner;
 use shard::Shard;
@@ -41,6 +43,10 @@ pub struct Args {
     /// The robot: a YAML file, or the name of a built-in robot.
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
     robot: String,
+    /// perfect: the true pose and a map without errors, driven by our own navigator; or
+    /// matched: a SLAM that errs and a stand-in for move_base, as in `frontier explore`.
+    #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = parse_slam)]
+    slam: SlamKind,
     /// End each run after this time of the simulation, seconds; it has then failed.
     #[arg(long, value_name = "S", value_parser = values::positive_seconds, default_value = "7200")]
     time_limit: f64,
@@ -55,7 +61,7 @@ pub struct Args {
         long,
         value_name = "JSON",
         num_args = 1..,
-        conflicts_with_all = ["presets", "worlds", "starts", "seeds", "robot", "time_limit", "jobs", "shard"]
+        conflicts_with_all = ["presets", "worlds", "starts", "seeds", "robot", "slam", "time_limit", "jobs", "shard"]
     )]
     merge: Vec<PathBuf>,
     /// Write all results as JSON.
@@ -106,7 +112,14 @@ fn compare(args: &Args) -> anyhow::Result<(Comparison, usize)> {
         .build()
         .context("cannot start threads for the runs")?;
     let progress = Progress::new(args.quiet, runs.len());
-    let runner = Runner { presets: &presets, robot: &robot, worlds: &worlds, stop: stop::flag()?, progress: &progress };
+    let runner = Runner {
+        presets: &presets,
+        robot: &robot,
+        worlds: &worlds,
+        slam: args.slam,
+        stop: stop::flag()?,
+        progress: &progress,
+    };
     let made = pool.install(|| runner.make(&runs));
     progress.finish();
     Ok((Comparison { plan, runs: made? }, runs.len()))
@@ -156,6 +169,7 @@ fn plan(
     };
     Ok(ComparisonPlan {
         robot: robot.name.clone(),
+        slam: args.slam.told(),
         time_limit_s: Some(args.time_limit),
         presets: presets.iter().map(compared).collect::<anyhow::Result<_>>()?,
         worlds: worlds.iter().map(|world| world.compared.clone()).collect(),

@@ -8,7 +8,7 @@ use anyhow::Context;
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::explore::{EndReason, run as explore};
 use frontier_explorer::report::{ComparedRun, PlannedRun};
-use frontier_explorer::sim::MapStyle;
+use frontier_explorer::sim::{MapStyle, SlamKind};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,6 +22,8 @@ pub struct Runner<'a> {
     pub robot: &'a RobotConfig,
     /// The worlds of the plan.
     pub worlds: &'a [LoadedWorld],
+    /// How the robot knows where it is.
+    pub slam: SlamKind,
     /// Raised when the user wants to stop.
     pub stop: Arc<AtomicBool>,
     /// Told of every run.
@@ -66,6 +68,7 @@ impl Runner<'_> {
             seed: run.seed,
             map_style: MapStyle::Gmapping,
             lidar_noise_std_m: None,
+            slam: self.slam,
         })
     }
 }

@@ -6,7 +6,7 @@ mod recording;
 
 use crate::exit::Outcome;
 use crate::run_folder::RunFolder;
-use crate::simulation::{NamedWorld, Plan};
+use crate::simulation::{NamedWorld, Plan, parse_slam};
 use crate::{inputs, output, stop, values};
 use anyhow::Context;
 use frontier_explorer::config::{Preset, RobotConfig};
@@ -14,7 +14,7 @@ use frontier_explorer::explore::{End, run as explore};
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::io::load_world;
 use frontier_explorer::report::RunRecord;
-use frontier_explorer::sim::MapStyle;
+use frontier_explorer::sim::{MapStyle, SlamKind};
 use progress::Progress;
 use recorder::Recorder;
 use recording::Recording;
@@ -46,6 +46,11 @@ pub struct Args {
     /// The values of the map: gmapping (-1, 0, 100) or cartographer (-1, 0 to 100).
     #[arg(long, value_name = "STYLE", default_value = "gmapping", value_parser = parse_style)]
     map_style: MapStyle,
+    /// perfect: the true pose and a map without errors, driven by our own navigator; or
+    /// matched: odometry that slips, a map by scan matching, and a stand-in for move_base
+    /// that refuses and fails as the real one does.
+    #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = parse_slam)]
+    slam: SlamKind,
     /// Decides every random number of the run.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -101,6 +106,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         seed: args.seed,
         map_style: args.map_style,
         lidar_noise_std_m: args.lidar_noise,
+        slam: args.slam,
     };
     let (mut sim, mut explorer) = plan.prepare()?;
     // The folder is made before the run: nobody waits for a map that cannot be saved.
@@ -113,7 +119,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     }
     let end = explore(&mut sim, &mut explorer, &mut recorder);
     let record = recorder.record(&plan, &sim, &explorer, &end, began.elapsed().as_secs_f64());
-    folder.write(&record, &recorder.trail, sim.map(), Some(sim.pose()), &plan.preset.explorer)?;
+    folder.write(&record, &recorder.trail, sim.map(), Some(sim.pose_in_map()), &plan.preset.explorer)?;
     if let Some(bag) = &mut recorder.bag {
         bag.finish()?;
     }

@@ -49,6 +49,7 @@ impl Recorder {
             preset: plan.preset.preset.clone(),
             robot: plan.robot.name.clone(),
             seed: Some(plan.seed),
+            slam: plan.slam.told(),
             start: plan.start,
             end_reason: end.reason,
             end_message: end.message.clone(),

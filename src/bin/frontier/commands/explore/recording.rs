@@ -73,8 +73,7 @@ impl Recording {
             self.file.put(self.topics.tf_static, at, &tf_message(&[mount]));
         }
         self.seq = self.seq.wrapping_add(1);
-        let (in_map, in_odom) = (sim.pose(), sim.pose_in_odom());
-        let odom_in_map = in_map.compose(&in_odom.inverse());
+        let (odom_in_map, in_odom) = (sim.map_from_odom(), sim.pose_in_odom());
         let chain = [
             TransformSample::planar(BEGIN_S + now_s, MAP, ODOM, &odom_in_map),
             TransformSample::planar(BEGIN_S + now_s, ODOM, BASE, &in_odom),

@@ -100,6 +100,7 @@ impl<'a> Recorder<'a> {
             preset,
             robot: robot_name,
             seed: None,
+            slam: None,
             start: self.start.unwrap_or_default(),
             end_reason: end.reason,
             end_message: end.message.clone(),

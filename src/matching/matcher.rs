@@ -9,6 +9,7 @@
 
 use super::field::{Blur, LikelihoodField};
 use crate::geometry::{Point, Pose, normalize_angle, shortest_angle};
+use crate::scan::{LaserScan, Reading};
 use nalgebra::{Matrix3, Vector3};
 
 /// Standard deviations of the likelihoods: coarse, fine, and for the last steps, metres.
@@ -30,6 +31,18 @@ pub struct Prior {
 }
 
 impl Prior {
+    /// What odometry tells of a body that was at a pose and has moved since; the longer
+    /// the way and the turn, the less it is believed.
+    #[must_use]
+    pub fn after_motion(before: &Pose, moved: &Pose) -> Self {
+        let (way_m, turn_rad) = (moved.x.hypot(moved.y), shortest_angle(0.0, moved.yaw).abs());
+        Self {
+            pose: before.compose(moved),
+            position_std_m: 0.03 + 0.2 * way_m + 0.05 * turn_rad,
+            heading_std_rad: 0.02 + 0.2 * turn_rad + 0.05 * way_m,
+        }
+    }
+
     /// Half the squared distance in standard deviations.
     fn penalty(&self, pose: &Pose) -> f64 {
         let position = pose.distance_to(self.pose.position()) / self.position_std_m;
@@ -48,6 +61,16 @@ pub struct Match {
     pub pose: Pose,
     /// Mean likelihood of the points there, 0 to 1.
     pub likelihood: f64,
+}
+
+/// The hits of a scan in the frame of the body that carries the lidar at `mount`, thinned
+/// evenly to at most `max_points`.
+#[must_use]
+pub fn thinned_hits(scan: &LaserScan, mount: &Pose, max_points: usize) -> Vec<Point> {
+    let is_hit = |range: &&f32| matches!(scan.reading(**range), Reading::Hit(_));
+    let count = scan.ranges_m.iter().filter(is_hit).count();
+    let stride = count.div_ceil(max_points.max(1)).max(1);
+    scan.hits(mount).step_by(stride).collect()
 }
 
 /// Fits points of a body's frame to a field, beginning at what odometry tells.

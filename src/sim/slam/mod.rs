@@ -1,0 +1,129 @@
+//! How the simulated robot knows where it is, and the map that comes of it.
+
+mod config;
+mod matched;
+mod perfect;
+
+pub use config::{SlamConfig, SlamKind};
+
+use super::schedule::Micros;
+use super::{MapperError, SimConfig};
+use crate::geometry::{Point, Pose};
+use crate::grid::OccupancyGrid;
+use crate::scan::LaserScan;
+use matched::MatchedSlam;
+use perfect::PerfectSlam;
+use std::sync::Arc;
+
+/// A sweep of the lidar and where it was taken.
+#[derive(Clone, Debug)]
+pub(super) struct Sweep {
+    /// Where the lidar truly was in the world.
+    pub lidar_in_world: Pose,
+    /// Where the wheels believed the robot's base.
+    pub base_in_odom: Pose,
+    /// The ranges.
+    pub scan: Arc<LaserScan>,
+}
+
+/// A map as it is published, and the time in seconds up to which it shows what was sensed.
+pub(super) struct NewMap {
+    pub grid: Arc<OccupancyGrid>,
+    pub stamp_s: f64,
+}
+
+/// One of the two kinds.
+#[derive(Debug)]
+pub(super) enum Slam {
+    Perfect(Box<PerfectSlam>),
+    Matched(Box<MatchedSlam>),
+}
+
+impl Slam {
+    /// With the first sweep taken in, at time 0 and the robot at `start`; also gives the
+    /// first map. `anchor` is a cell corner of the world.
+    pub(super) fn begin(
+        config: &SimConfig,
+        start: &Pose,
+        anchor: Point,
+        mount: Pose,
+        first: &Sweep,
+    ) -> Result<(Self, Arc<OccupancyGrid>), MapperError> {
+        Ok(match config.slam.kind {
+            SlamKind::Perfect => {
+                let (slam, grid) = PerfectSlam::begin(config.mapper, start, anchor, first)?;
+                (Self::Perfect(Box::new(slam)), grid)
+            }
+            SlamKind::Matched => {
+                let (slam, grid) = MatchedSlam::begin(config, start, mount, first)?;
+                (Self::Matched(Box::new(slam)), grid)
+            }
+        })
+    }
+
+    /// When something happens next by itself.
+    pub(super) fn next(&self) -> Micros {
+        match self {
+            Self::Perfect(slam) => slam.next(),
+            Self::Matched(slam) => slam.next(),
+        }
+    }
+
+    /// Takes a sweep that was taken now.
+    pub(super) fn add(&mut self, sweep: &Sweep, now: Micros) -> Result<(), MapperError> {
+        match self {
+            Self::Perfect(slam) => slam.add(sweep, now),
+            Self::Matched(slam) => slam.add(sweep, now),
+        }
+    }
+
+    /// The map that is published now, if one is; `newest` is the newest sweep.
+    pub(super) fn publish(&mut self, newest: &Sweep, now: Micros) -> Result<Option<NewMap>, MapperError> {
+        match self {
+            Self::Perfect(slam) => slam.publish(newest, now),
+            Self::Matched(slam) => Ok(slam.publish(now)),
+        }
+    }
+
+    /// Remembers where the wheels believe the robot at a time.
+    pub(super) fn note(&mut self, base_in_odom: &Pose, now: Micros) {
+        if let Self::Matched(slam) = self {
+            slam.note(base_in_odom, now);
+        }
+    }
+
+    /// `map -> odom`: where the odometry's frame is believed to lie in the map.
+    pub(super) fn map_from_odom(&self, base_in_world: &Pose, base_in_odom: &Pose) -> Pose {
+        match self {
+            Self::Perfect(_) => base_in_world.compose(&base_in_odom.inverse()),
+            Self::Matched(slam) => slam.map_from_odom(),
+        }
+    }
+
+    /// Where the robot is believed to be in the map, as late as it is known.
+    pub(super) fn pose_in_map(&self, base_in_world: &Pose, now: Micros) -> Pose {
+        match self {
+            Self::Perfect(_) => *base_in_world,
+            Self::Matched(slam) => slam.late_pose(now),
+        }
+    }
+
+    /// How late the pose is known, seconds.
+    pub(super) fn lateness_s(&self) -> f64 {
+        match self {
+            Self::Perfect(_) => 0.0,
+            Self::Matched(slam) => slam.lateness_s(),
+        }
+    }
+
+    /// Area of all cells seen so far, square metres.
+    pub(super) fn known_area_m2(&self) -> f64 {
+        match self {
+            Self::Perfect(slam) => slam.known_area_m2(),
+            Self::Matched(slam) => slam.known_area_m2(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
