@@ -10,6 +10,8 @@ const ONE_PLACE_M: f64 = 0.3;
 const BACK_OFFS: u32 = 3;
 /// So much more that is known is new ground, square metres.
 const NEW_GROUND_M2: f64 = 1.0;
+/// More than this from one tick to the next is a gap, seconds.
+const LONGEST_TICK_S: f64 = 5.0;
 /// The longest rest between two rounds, seconds.
 const LONGEST_PAUSE_S: f64 = 16.0;
 
@@ -27,8 +29,9 @@ pub struct Trouble {
     back_offs_here: u32,
     /// What was known at the last success, square metres.
     known_m2: f64,
-    /// When that was, seconds.
-    news_s: Option<f64>,
+    /// Since then, and when that was counted last, seconds.
+    no_news_s: f64,
+    last_s: Option<f64>,
 }
 
 impl Trouble {
@@ -44,14 +47,17 @@ impl Trouble {
     /// A map knows so much at a time: square metres and seconds.
     pub fn sees(&mut self, known_m2: f64, now_s: f64) {
         if known_m2 >= self.known_m2 + NEW_GROUND_M2 || known_m2 < 0.5 * self.known_m2 {
-            (self.known_m2, self.news_s) = (known_m2, Some(now_s));
+            (self.known_m2, self.no_news_s, self.last_s) = (known_m2, 0.0, Some(now_s));
             self.is_over();
         }
     }
 
-    /// How long no new ground has been seen, seconds.
+    /// How long no new ground has been seen, seconds; what is no tick but a gap in a recording
+    /// hardly counts.
     pub fn no_news_for_s(&mut self, now_s: f64) -> f64 {
-        now_s - *self.news_s.get_or_insert(now_s)
+        let last_s = self.last_s.replace(now_s).unwrap_or(now_s);
+        self.no_news_s += (now_s - last_s).clamp(0.0, LONGEST_TICK_S);
+        self.no_news_s
     }
 
     /// The robot is at a pose.
@@ -59,6 +65,11 @@ impl Trouble {
         if let Some((_, from)) = self.began {
             self.farthest_m = self.farthest_m.max(pose.distance_to(from));
         }
+    }
+
+    /// The robot got away from where it was by backing off: it can move.
+    pub const fn has_got_away(&mut self) {
+        self.farthest_m = f64::INFINITY;
     }
 
     /// The next failure at this pose is the place's, though it is the first.
@@ -135,11 +146,12 @@ mod tests {
     fn new_ground_is_news_and_a_success() {
         let mut trouble = Trouble::default();
         trouble.sees(10.0, 0.0);
-        trouble.fail(&Pose::default(), 5.0);
-        trouble.sees(10.5, 20.0);
-        assert_eq!((trouble.no_news_for_s(30.0), trouble.lasts_s(30.0)), (30.0, 25.0));
-        trouble.sees(11.1, 40.0);
-        assert_eq!((trouble.no_news_for_s(50.0), trouble.lasts_s(50.0)), (10.0, 0.0));
+        trouble.fail(&Pose::default(), 1.0);
+        trouble.sees(10.5, 2.0);
+        assert_eq!((trouble.no_news_for_s(4.0), trouble.lasts_s(4.0)), (4.0, 3.0));
+        assert_eq!(trouble.no_news_for_s(1e9), 9.0, "years between two ticks are none");
+        trouble.sees(11.1, 1e9);
+        assert_eq!((trouble.no_news_for_s(1e9 + 2.0), trouble.lasts_s(1e9)), (2.0, 0.0));
     }
 
     #[test]

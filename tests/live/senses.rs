@@ -137,7 +137,8 @@ fn blind_scans(world: &World) {
             blind(&mut scan);
             Some(scan)
         });
-        expect_standing(&odometry, Duration::from_millis(1600), &explore, name);
+        // A second without sight, and another to brake from 1.92 rad/s at 2 rad/s2.
+        expect_standing(&odometry, Duration::from_millis(2200), &explore, name);
         let log = explore.log();
         assert!(log.contains("the scans on scan show nothing") && log.contains(said), "{name}: {log}");
     }

@@ -187,7 +187,7 @@ fn rosbag(stage: &Stage) {
     // A replay of it decides as the node did: at 8 times real time a decision may fall to
     // another map, so that not all of the few need agree.
     let (frontier, out) = (env!("CARGO_BIN_EXE_frontier"), stage.folder.join("replay"));
-    let said = stage.output(&format!("{frontier} replay {} --out {}", bag.display(), out.display()));
+    let said = stage.output(&format!("{frontier} replay {} --config liang --out {}", bag.display(), out.display()));
     let comparison = std::fs::read(out.join("comparison.json")).unwrap();
     let comparison: serde_json::Value = serde_json::from_slice(&comparison).unwrap();
     let count = |key: &str| comparison[key].as_u64().unwrap();

@@ -11,6 +11,9 @@ use crate::robot::{MapSnapshot, NavigationState, Observation};
 /// itself, seconds.
 const WEDGED_STILL_S: f64 = 2.0;
 
+/// A map that comes this much before the period is over is not left for the next, seconds.
+const EARLY_S: f64 = 0.15;
+
 impl Explorer {
     /// A tick on the way to a goal.
     pub(super) fn drive(&mut self, observation: &Observation, pose: Pose) -> Option<DecisionRecord> {
@@ -76,7 +79,7 @@ impl Explorer {
             .settings
             .goal
             .reconsider_period_s
-            .is_some_and(|period_s| observation.stamp_s - drive.considered_s >= period_s);
+            .is_some_and(|period_s| observation.stamp_s - drive.considered_s >= period_s - EARLY_S);
         let blocked = !self.lookout.can_stand(map, drive.goal.position());
         if due || blocked {
             return self.decide(observation, map, pose);

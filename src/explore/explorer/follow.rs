@@ -33,7 +33,7 @@ impl Explorer {
             is_stage: false,
             since_s: observation.stamp_s,
             progress: ProgressMonitor::new(pose, observation.stamp_s),
-            considered_s: observation.stamp_s,
+            considered_s: map.stamp_s,
             considered_version: map.version,
         });
     }
@@ -108,7 +108,7 @@ impl Explorer {
                 let goal = &self.settings.goal;
                 let is_same = drive.goal.distance_to(choice.goal.position()) < goal.already_there_m;
                 if is_same || decided.is_open_near(drive.target, goal.commit_radius_m) {
-                    drive.considered_s = now_s;
+                    drive.considered_s = map.stamp_s;
                     drive.considered_version = map.version;
                     record.goal = Some(drive.goal);
                     "the goal under way is kept".clone_into(&mut record.why);
@@ -124,7 +124,7 @@ impl Explorer {
                 is_stage: choice.is_stage,
                 since_s: now_s,
                 progress,
-                considered_s: now_s,
+                considered_s: map.stamp_s,
                 considered_version: map.version,
             });
             return;
