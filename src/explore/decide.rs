@@ -4,8 +4,9 @@
 use super::assess::{Assessed, Surroundings, rank};
 use super::audit::Audit;
 use super::behind::unknown_behind_m2;
-use super::blacklist::{Blacklist, Taboo};
-use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position, SeenFrontier};
+use super::blacklist::Blacklist;
+use super::decided::{Audited, Choice, Decided, count, explain};
+use super::record::{CandidateStatus, DecisionRecord, SeenFrontier};
 use super::settings::ExplorerSettings;
 use super::sight::Sights;
 use super::stages::stage;
@@ -18,96 +19,6 @@ use crate::planning::{Astar, Driven, GlobalPlanner, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
 use crate::selection::GoalSelector;
 use std::sync::Arc;
-
-/// Where to go, when there is somewhere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
-    /// Where the robot shall stand.
-    pub goal: Pose,
-    /// The frontier's representative point, or the cell to be seen.
-    pub target: Point,
-    /// Whether the goal is only a place on the way there.
-    pub is_stage: bool,
-}
-
-/// What one decision found.
-#[derive(Clone, Debug)]
-pub struct Decided {
-    /// For the log.
-    pub record: DecisionRecord,
-    /// The goal, if there is one.
-    pub choice: Option<Choice>,
-    /// The target that is seen from where the robot stands, when only such are left.
-    pub here: Option<Point>,
-    /// What is left, by the reason for leaving it.
-    pub left_behind: LeftBehind,
-    /// What the audit found besides, where there was nothing to choose.
-    pub audit: Option<Audited>,
-}
-
-/// What the check before an end found.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Audited {
-    /// Frontiers that the robot could be sent to, and the preset's rules forbid it.
-    pub forbidden: usize,
-    /// Their length in all, metres.
-    pub forbidden_m: f64,
-    /// Frontiers that the bare body could get to, and with its padding and room to turn it
-    /// cannot.
-    pub barred: usize,
-    /// Whether the robot stands in a pocket: a place too small to be one of its own.
-    pub in_pocket: bool,
-}
-
-impl Decided {
-    /// Whether the robot could still be sent to a frontier near a point.
-    pub fn is_open_near(&self, target: Point, radius_m: f64) -> bool {
-        let is_open = |status| matches!(status, CandidateStatus::Chosen | CandidateStatus::Eligible);
-        let near = |at: Position| nalgebra::distance(&target, &Point::new(at.x, at.y)) <= radius_m;
-        self.record.candidates.iter().any(|c| is_open(c.status) && near(c.target))
-    }
-
-    /// Why a run ends for which nothing is left to choose. `is_wedged`: the robot has not
-    /// got away from where it is for long.
-    pub fn why_nothing_is_left(&self, is_wedged: bool) -> (EndReason, String) {
-        let left = &self.left_behind;
-        let audit = self.audit.unwrap_or(Audited { forbidden: 0, forbidden_m: 0.0, barred: 0, in_pocket: false });
-        let behind = format!("{:.1} m of frontier, {:.1} m2 or more behind it", left.length_m, left.area_m2);
-        let blocked = left.failed + audit.barred;
-        if (left.unreachable > 0 && audit.in_pocket) || (left.failed > 0 && is_wedged) {
-            let message = format!(
-                "the robot does not get away from where it is, and {} frontiers are left: {behind}",
-                left.frontiers
-            );
-            (EndReason::Stuck, message)
-        } else if blocked > 0 {
-            let message = format!(
-                "{blocked} of {} frontiers cannot be reached ({} where driving failed, {} by ways too tight for the \
-                 robot): {behind}",
-                left.frontiers, left.failed, audit.barred
-            );
-            (EndReason::AllUnreachable, message)
-        } else if audit.forbidden > 0 {
-            let message = format!(
-                "the preset sees no more, and the map has {} frontiers of {:.1} m that can be reached",
-                audit.forbidden, audit.forbidden_m
-            );
-            (EndReason::PresetSeesNoMore, message)
-        } else if left.outside_region > 0 {
-            (EndReason::OutsideRegion, format!("all {} frontiers left lie outside the region", left.outside_region))
-        } else if left.frontiers == 0 {
-            (EndReason::Complete, "no frontier is left".to_owned())
-        } else {
-            let message = format!(
-                "no frontier is left that the robot could get to and see more of ({} seen in vain, {} behind openings \
-                 narrower than the robot: {behind})",
-                left.exhausted,
-                left.too_narrow + left.unreachable
-            );
-            (EndReason::Complete, message)
-        }
-    }
-}
 
 /// What a decision is made on, besides the map.
 pub struct Situation<'a> {
@@ -406,41 +317,4 @@ fn nearest_here(assessed: &[Assessed]) -> Option<Point> {
         .filter(|a| a.record.status == CandidateStatus::AlreadyThere)
         .min_by(|a, b| a.record.distance_m.total_cmp(&b.record.distance_m))
         .map(|a| a.target)
-}
-
-fn count(assessed: &[Assessed]) -> LeftBehind {
-    let mut left = LeftBehind { frontiers: assessed.len(), ..LeftBehind::default() };
-    for a in assessed {
-        if a.record.status != CandidateStatus::OutsideRegion {
-            left.length_m += a.record.size_m;
-        }
-        match (a.record.status, a.taboo) {
-            (CandidateStatus::OutsideRegion, _) => left.outside_region += 1,
-            (CandidateStatus::TooNarrow, _) => left.too_narrow += 1,
-            (CandidateStatus::Unreachable, _) => left.unreachable += 1,
-            (CandidateStatus::Taboo, Some(Taboo::Exhausted)) => left.exhausted += 1,
-            (CandidateStatus::Taboo | CandidateStatus::NoPath, _) => left.failed += 1,
-            (CandidateStatus::Chosen | CandidateStatus::Eligible | CandidateStatus::AlreadyThere, _) => {}
-        }
-    }
-    left
-}
-
-/// One sentence about the decision.
-fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left: &LeftBehind) -> String {
-    let skipped = assessed.iter().filter(|a| a.record.status == CandidateStatus::NoPath).count();
-    match choice {
-        Some(choice) => {
-            let passed_over = if skipped > 0 { format!(", {skipped} before it had no path") } else { String::new() };
-            let part = if choice.is_stage { ": the planner gave up, part of the way" } else { "" };
-            format!(
-                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}{part}",
-                left.frontiers, choice.target.x, choice.target.y
-            )
-        }
-        None => format!(
-            "no goal among {} frontiers: {} unreachable, {} failed, {} seen in vain, {} too narrow, {} outside the region",
-            left.frontiers, left.unreachable, left.failed, left.exhausted, left.too_narrow, left.outside_region
-        ),
-    }
 }

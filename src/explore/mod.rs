@@ -5,6 +5,7 @@ mod audit;
 mod behind;
 mod blacklist;
 mod decide;
+mod decided;
 mod explorer;
 mod ledger;
 mod map_watch;

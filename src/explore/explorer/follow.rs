@@ -1,6 +1,7 @@
 //! From a decision to what is done about it: a goal, a look round, a recovery, the end.
 
-use super::super::decide::{Decided, Situation};
+use super::super::decide::Situation;
+use super::super::decided::Decided;
 use super::super::progress::ProgressMonitor;
 use super::super::record::{DecisionRecord, EndReason};
 use super::super::state::{AfterTurn, Drive, State};

@@ -1,7 +1,7 @@
 //! What is done when nothing works: get away from here, look round, rest, try again; and
 //! when that is over.
 
-use super::super::decide::Decided;
+use super::super::decided::Decided;
 use super::super::record::{DecisionRecord, End, EndReason};
 use super::super::state::{AfterTurn, State};
 use super::Explorer;
