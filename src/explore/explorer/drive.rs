@@ -37,7 +37,11 @@ impl Explorer {
             }
             NavigationState::Aborted(why) if ours => self.fail(pose, now_s, why),
             NavigationState::Preempted if ours => self.state = State::Settling { since_s: now_s },
-            _ => {
+            state => {
+                // A goal that nobody has taken up yet moves nobody.
+                if ours && *state == NavigationState::Idle {
+                    drive.progress.pause(now_s);
+                }
                 let stuck_s = drive.progress.stuck_for_s(&pose, now_s, patience.progress_distance_m);
                 let still_s = drive.progress.still_for_s(&pose, now_s);
                 // A robot that stands where its navigation cannot plan from gets no plan.

@@ -127,7 +127,12 @@ impl MoveBase {
     /// How the goal is doing.
     #[must_use]
     pub fn state(&self) -> NavigationState {
-        lock(&self.tracker).state(self.node.wall_s())
+        let mut tracker = lock(&self.tracker);
+        match tracker.state(self.node.wall_s()) {
+            // Nothing is under way before the server has taken it up.
+            NavigationState::Active if !tracker.is_taken_up() => NavigationState::Idle,
+            state => state,
+        }
     }
 
     /// Asks move_base to clear the obstacles that it remembers, and does not wait for that:

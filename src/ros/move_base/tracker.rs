@@ -139,6 +139,14 @@ impl GoalTracker {
         }
     }
 
+    /// Whether the server has shown that it knows the goal.
+    pub const fn is_taken_up(&self) -> bool {
+        match &self.goal {
+            Some(goal) => goal.listed_s.is_some() || goal.closed.is_some() || goal.outcome.is_some(),
+            None => false,
+        }
+    }
+
     /// Looks whether the result is overdue.
     fn update(&mut self, now_s: f64) {
         let Some(goal) = self.goal.as_mut().filter(|goal| goal.outcome.is_none()) else { return };
