@@ -173,7 +173,7 @@ fn rosbag(stage: &Stage) {
     let bag = stage.folder.join("run.bag");
     let topics = "/map /tf /tf_static /scan /move_base/goal /move_base/result /explore/frontiers";
     let mut record = stage.start("record", &format!("rosbag record -O {} {topics}", bag.display()));
-    let mut explore = stage.explore("_exit_when_done:=true");
+    let mut explore = stage.explore("_exit_when_done:=true _config:=wfd");
     explore.expect_code(0, DEADLINE);
     record.signal("INT");
     record.wait(SOON);
@@ -187,7 +187,7 @@ fn rosbag(stage: &Stage) {
     // A replay of it decides as the node did: at 8 times real time a decision may fall to
     // another map, so that not all of the few need agree.
     let (frontier, out) = (env!("CARGO_BIN_EXE_frontier"), stage.folder.join("replay"));
-    let said = stage.output(&format!("{frontier} replay {} --config liang --out {}", bag.display(), out.display()));
+    let said = stage.output(&format!("{frontier} replay {} --config wfd --out {}", bag.display(), out.display()));
     let comparison = std::fs::read(out.join("comparison.json")).unwrap();
     let comparison: serde_json::Value = serde_json::from_slice(&comparison).unwrap();
     let count = |key: &str| comparison[key].as_u64().unwrap();
