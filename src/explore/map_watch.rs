@@ -111,21 +111,20 @@ impl MapWatch {
             }
             return None;
         }
+        // One that is doubted is counted once, and a second one is waited for.
+        if self.doubted.is_some_and(|(version, ..)| version == map.version) {
+            return None;
+        }
         let known_cells = map.grid.data().iter().filter(|&&value| value >= 0).count();
         if let Some(believed) = &self.believed
             && let Some(why) = doubt(believed, map, known_cells)
         {
             let resolution_m = map.grid.info().resolution_m();
-            let agrees = self.doubted.is_some_and(|(version, cells, resolution)| {
-                version != map.version
-                    && cells.abs_diff(known_cells) * 10 <= cells.max(known_cells)
-                    && resolution == resolution_m
+            let agrees = self.doubted.is_some_and(|(_, cells, resolution)| {
+                cells.abs_diff(known_cells) * 10 <= cells.max(known_cells) && resolution == resolution_m
             });
             if !agrees {
-                self.doubted.get_or_insert((map.version, known_cells, resolution_m));
-                if self.doubted.is_some_and(|(version, ..)| version != map.version) {
-                    self.doubted = Some((map.version, known_cells, resolution_m));
-                }
+                self.doubted = Some((map.version, known_cells, resolution_m));
                 return Some(format!("{why}: a second map like it is waited for"));
             }
         }
