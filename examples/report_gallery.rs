@@ -248,6 +248,7 @@ fn record(run: &Run) -> RunRecord {
         distance_to_coverage_m: run.series.distance_to_coverage_m(),
         counts: Counts { goals_sent: run.goals.len(), goals_reached: 5, detections: 211, ..Counts::default() },
         time_spent: TimeSpent::default(),
+        notices: Vec::new(),
         left_behind: LeftBehind { frontiers: 3, unreachable: 2, failed: 1, ..LeftBehind::default() },
         decisions: decisions.collect(),
         series: run.series.points(),

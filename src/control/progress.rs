@@ -3,7 +3,7 @@
 use super::ControlInput;
 use crate::geometry::Path;
 use crate::geometry::{Point, Pose};
-use crate::grid::{Costmap, INSCRIBED_COST, LETHAL_COST, traverse};
+use crate::grid::{Costmap, INSCRIBED_COST, LETHAL_COST, NARROW_COST, traverse};
 
 /// The progress along one path: the index of the pose nearest to the robot so far.
 #[derive(Clone, Copy, Debug, Default)]
@@ -71,17 +71,41 @@ impl PathProgress {
 }
 
 /// Whether the robot's centre can go straight from one point to another: no cell on
-/// the line is blocked, except while it is leaving a place that already is.
+/// the line is blocked, except while it is leaving a place that already is. Between places
+/// where the robot can turn, the line keeps to such: a long body scrapes along the corners
+/// that its inscribed circle just passes.
 fn straight_is_free(costmap: &Costmap, from: Point, to: Point) -> bool {
     let line = to - from;
-    let mut leaving = costmap.cost_at(from) >= INSCRIBED_COST;
+    let ends = costmap.cost_at(from).max(costmap.cost_at(to));
+    let blocked = if ends < NARROW_COST { NARROW_COST } else { INSCRIBED_COST };
+    let mut leaving = costmap.cost_at(from) >= blocked;
     for (cell, _) in traverse(costmap.info(), from, line.y.atan2(line.x), line.norm()) {
         let cost = costmap.cost(cell);
-        if cost < INSCRIBED_COST {
+        if cost < blocked {
             leaving = false;
         } else if !leaving || cost == LETHAL_COST {
             return false;
         }
     }
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::GridInfo;
+
+    #[test]
+    fn a_line_between_places_with_room_keeps_to_such() {
+        let info = GridInfo::new(5, 1, 1.0, Pose::default()).unwrap();
+        let is_free = |costs: [u8; 5]| {
+            let costmap = Costmap::from_costs(info, costs.to_vec()).unwrap();
+            straight_is_free(&costmap, Point::new(0.5, 0.5), Point::new(4.5, 0.5))
+        };
+        assert!(is_free([0, 100, NARROW_COST - 1, 100, 0]));
+        assert!(!is_free([0, 0, NARROW_COST, 0, 0]), "a corner that its inscribed circle passes");
+        assert!(is_free([0, 0, NARROW_COST, NARROW_COST, NARROW_COST]), "into a narrow place");
+        assert!(!is_free([0, 0, NARROW_COST, INSCRIBED_COST, NARROW_COST]));
+        assert!(is_free([INSCRIBED_COST, INSCRIBED_COST, 0, 0, 0]), "out of where it should not be");
+    }
 }

@@ -23,6 +23,8 @@ pub struct Assessed {
     pub candidate: Option<Candidate>,
     /// Why it is left alone, when its status is `Taboo`.
     pub taboo: Option<Taboo>,
+    /// How far from it the best place to stand is, metres, where the robot was there in vain.
+    pub spent_m: Option<f64>,
     /// What ranks it, once it has been scored.
     pub total: f64,
 }
@@ -56,6 +58,7 @@ struct Aim {
     goal: Option<Pose>,
     status: CandidateStatus,
     taboo: Option<Taboo>,
+    spent_m: Option<f64>,
 }
 
 /// A representative point farther than this from all cells of its frontier does not stand
@@ -68,7 +71,7 @@ impl Surroundings<'_> {
     /// Assesses one frontier.
     pub fn assess(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Assessed {
         let (info, needs) = (self.grid.info(), self.needs);
-        let Aim { target, goal, status, taboo } = self.aim(frontier, standing);
+        let Aim { target, goal, status, taboo, spent_m } = self.aim(frontier, standing);
         let distance_m = self.robot.distance_to(target);
         let size_m = frontier.size_m(info);
         let candidate = goal.map(|goal| Candidate {
@@ -92,13 +95,13 @@ impl Surroundings<'_> {
             scores: Default::default(),
             status,
         };
-        Assessed { record, target, candidate, taboo, total: f64::INFINITY }
+        Assessed { record, target, candidate, taboo, spent_m, total: f64::INFINITY }
     }
 
     fn aim(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Aim {
         let (settings, info) = (self.settings, self.grid.info());
         let target = settings.goal.representative.of(frontier, info, self.robot.position());
-        let left = |status, taboo| Aim { target, goal: None, status, taboo };
+        let left = |status, taboo| Aim { target, goal: None, status, taboo, spent_m: None };
         if settings.region.as_ref().is_some_and(|region| !region.contains(target)) {
             return left(CandidateStatus::OutsideRegion, None);
         }
@@ -113,27 +116,40 @@ impl Surroundings<'_> {
         let mut goal = self.place_for(target, standing);
         let mut target = target;
         let serves = |goal: &Option<Pose>| goal.is_some_and(|goal| !self.is_here(&goal));
-        let stands_for_it = serves(&goal) && is_near(frontier, info, target);
+        let is_open = self.spent_m(target, &goal).is_none();
+        let stands_for_it = serves(&goal) && is_open && is_near(frontier, info, target);
         if !(so_far.all || stands_for_it) {
             let others = self.other_cells(frontier, so_far.nearest_open);
             let other = others.into_iter().find_map(|cell| {
                 let place = self.place_for(cell, standing);
-                serves(&place).then_some((cell, place))
+                let is_open = || !self.blacklist.has_failed(cell) && self.spent_m(cell, &place).is_none();
+                (serves(&place) && is_open()).then_some((cell, place))
             });
             (target, goal) = other.unwrap_or((target, goal));
         }
-        let taboo = if so_far.all { Some(Taboo::Exhausted) } else { self.blacklist.check(target) };
+        let has_failed = self.blacklist.has_failed(target);
+        let taboo = if so_far.all { Some(Taboo::Exhausted) } else { has_failed.then_some(Taboo::Failed) };
+        let spent_m = self.spent_m(target, &goal);
         let status = match goal {
             _ if taboo.is_some() => CandidateStatus::Taboo,
             None if self.has_failed(target, standing) => {
-                return Aim { target, goal, status: CandidateStatus::Taboo, taboo: Some(Taboo::Failed) };
+                return Aim { target, goal, status: CandidateStatus::Taboo, taboo: Some(Taboo::Failed), spent_m };
             }
             None => CandidateStatus::Unreachable,
+            Some(_) if spent_m.is_some() => CandidateStatus::Unreachable,
             Some(goal) if self.is_here(&goal) => CandidateStatus::AlreadyThere,
             Some(_) if self.awaits_map && seen(f64::INFINITY).all => CandidateStatus::AlreadyThere,
             Some(_) => CandidateStatus::Eligible,
         };
-        Aim { target, goal, status, taboo }
+        Aim { target, goal, status, taboo, spent_m }
+    }
+
+    /// How far from the target the best place to stand is, metres, where the robot was there
+    /// and saw no more of it.
+    fn spent_m(&self, target: Point, goal: &Option<Pose>) -> Option<f64> {
+        let place = goal.as_ref()?.position();
+        let is_spent = self.blacklist.is_spent(place, target, self.sights.is_all_round());
+        is_spent.then(|| nalgebra::distance(&place, &target))
     }
 
     /// The frontier's cells to go and see instead of its representative point: first the

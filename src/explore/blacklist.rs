@@ -43,7 +43,13 @@ pub enum Taboo {
 struct Entry {
     target: Point,
     failures: u32,
-    visits: u32,
+}
+
+/// A visit in vain.
+#[derive(Clone, Copy, Debug)]
+struct Visit {
+    place: Point,
+    target: Point,
 }
 
 /// A place to stand that could not be reached.
@@ -61,6 +67,7 @@ pub struct Blacklist {
     config: TabooConfig,
     entries: Vec<Entry>,
     refused: Vec<Refused>,
+    visits: Vec<Visit>,
 }
 
 /// Places to stand within this distance are the same, metres.
@@ -70,7 +77,7 @@ impl Blacklist {
     /// An empty list.
     #[must_use]
     pub const fn new(config: TabooConfig) -> Self {
-        Self { config, entries: Vec::new(), refused: Vec::new() }
+        Self { config, entries: Vec::new(), refused: Vec::new(), visits: Vec::new() }
     }
 
     /// Driving from a place to another one, to see a target, failed.
@@ -79,25 +86,31 @@ impl Blacklist {
         self.refused.push(Refused { place, from, target });
     }
 
-    /// The robot was at the goal of a target, and a newer map shows no change.
-    pub fn record_visit(&mut self, target: Point) {
-        self.entry(target).visits += 1;
+    /// The robot was at a place to see a target, and a newer map shows no change.
+    pub fn record_visit(&mut self, target: Point, place: Point) {
+        self.visits.push(Visit { place, target });
     }
 
-    /// Why a frontier with this point is to be left alone, if it is.
+    /// Whether driving to a frontier with this point has failed too often in this round.
     #[must_use]
-    pub fn check(&self, target: Point) -> Option<Taboo> {
-        let near = |entry: &&Entry| nalgebra::distance(&entry.target, &target) <= self.config.radius_m;
-        let mut found = None;
-        for entry in self.entries.iter().filter(near) {
-            if entry.visits >= self.config.max_visits {
-                return Some(Taboo::Exhausted);
-            }
-            if entry.failures >= self.config.max_failures {
-                found = Some(Taboo::Failed);
-            }
-        }
-        found
+    pub fn has_failed(&self, target: Point) -> bool {
+        let is_near = |entry: &Entry| nalgebra::distance(&entry.target, &target) <= self.config.radius_m;
+        self.entries.iter().any(|entry| is_near(entry) && entry.failures >= self.config.max_failures)
+    }
+
+    /// Whether the robot was at a place often enough, or nearer to the target, without seeing
+    /// more of it: only a closer place is worth a visit. A robot that sees all round has seen
+    /// from a place whatever can be seen from there, for this target or another one.
+    #[must_use]
+    pub fn is_spent(&self, place: Point, target: Point, sees_all_round: bool) -> bool {
+        let away_m = nalgebra::distance(&place, &target);
+        let is_vain = |visit: &&Visit| {
+            let is_same_place = nalgebra::distance(&visit.place, &place) <= SAME_PLACE_M;
+            let is_same_target = nalgebra::distance(&visit.target, &target) <= self.config.radius_m;
+            let was_as_close = nalgebra::distance(&visit.place, &visit.target) <= away_m + SAME_PLACE_M;
+            (is_same_place && sees_all_round) || (is_same_target && was_as_close)
+        };
+        self.visits.iter().filter(is_vain).count() >= self.config.max_visits as usize
     }
 
     /// Whether the robot has failed to get to a place to stand in this round.
@@ -131,14 +144,16 @@ impl Blacklist {
 
     /// The places that are taboo now, for markers.
     pub fn places(&self) -> impl Iterator<Item = (Point, Taboo)> + '_ {
-        self.entries.iter().filter_map(move |e| self.check(e.target).map(|taboo| (e.target, taboo)))
+        let failed = self.entries.iter().filter(|entry| self.has_failed(entry.target));
+        let spent = self.visits.iter().filter(|visit| self.is_spent(visit.place, visit.target, false));
+        failed.map(|e| (e.target, Taboo::Failed)).chain(spent.map(|visit| (visit.target, Taboo::Exhausted)))
     }
 
     fn entry(&mut self, target: Point) -> &mut Entry {
         let radius_m = self.config.radius_m;
         let known = self.entries.iter().position(|e| nalgebra::distance(&e.target, &target) <= radius_m);
         let index = known.unwrap_or_else(|| {
-            self.entries.push(Entry { target, failures: 0, visits: 0 });
+            self.entries.push(Entry { target, failures: 0 });
             self.entries.len() - 1
         });
         &mut self.entries[index]
@@ -157,18 +172,18 @@ mod tests {
         let (target, near) = (Point::new(1.0, 1.0), Point::new(1.2, 1.0));
         let stand = Point::new(0.5, 1.0);
         list.record_failure(target, stand, HERE);
-        assert_eq!((list.check(target), list.refuses(stand)), (None, true));
+        assert_eq!((list.has_failed(target), list.refuses(stand)), (false, true));
         list.record_failure(near, Point::new(0.5, 2.0), HERE);
-        assert_eq!(list.check(near), Some(Taboo::Failed));
-        assert_eq!(list.check(Point::new(2.0, 2.0)), None);
+        assert!(list.has_failed(near));
+        assert!(!list.has_failed(Point::new(2.0, 2.0)));
         list.forgive_failures();
-        assert_eq!((list.check(near), list.refuses(stand)), (None, false), "one more chance");
+        assert_eq!((list.has_failed(near), list.refuses(stand)), (false, false), "one more chance");
         list.record_failure(near, stand, HERE);
-        assert_eq!(list.check(near), Some(Taboo::Failed));
+        assert!(list.has_failed(near));
         let mut for_good = Blacklist::new(TabooConfig { max_failures: 1, is_final: true, ..TabooConfig::default() });
         for_good.record_failure(target, stand, HERE);
         for_good.forgive_failures();
-        assert_eq!(for_good.check(target), Some(Taboo::Failed));
+        assert!(for_good.has_failed(target));
     }
 
     #[test]
@@ -178,17 +193,23 @@ mod tests {
         list.record_failure(target, target, HERE);
         list.record_failure(other, other, Point::new(0.0, 0.0));
         list.forgive_from(Point::new(9.1, 9.0), 0.3);
-        assert_eq!((list.check(target), list.refuses(target)), (None, false));
-        assert_eq!((list.check(other), list.refuses(other)), (Some(Taboo::Failed), true));
+        assert_eq!((list.has_failed(target), list.refuses(target)), (false, false));
+        assert_eq!((list.has_failed(other), list.refuses(other)), (true, true));
     }
 
     #[test]
     fn vain_visits_do_not_expire() {
         let mut list = Blacklist::new(TabooConfig::default());
-        list.record_visit(Point::new(0.0, 0.0));
-        list.record_visit(Point::new(0.1, 0.0));
+        let stand = Point::new(1.0, 0.0);
+        list.record_visit(Point::new(0.0, 0.0), stand);
+        list.record_visit(Point::new(0.1, 0.0), stand);
         list.forgive_failures();
-        assert_eq!(list.check(Point::new(0.0, 0.1)), Some(Taboo::Exhausted));
-        assert_eq!(list.places().count(), 1);
+        let target = Point::new(0.0, 0.1);
+        assert!(list.is_spent(stand, target, false));
+        assert!(list.is_spent(Point::new(-1.5, 0.0), target, false), "no closer");
+        assert!(!list.is_spent(Point::new(0.5, 0.0), target, false), "a closer look");
+        let other = Point::new(2.0, 0.0);
+        assert!(!list.is_spent(stand, other, false) && list.is_spent(stand, other, true));
+        assert!(list.places().all(|(_, taboo)| taboo == Taboo::Exhausted));
     }
 }

@@ -10,7 +10,7 @@ use super::record::{CandidateStatus, DecisionRecord, SeenFrontier};
 use super::settings::ExplorerSettings;
 use super::sight::Sights;
 use super::stages::stage;
-use super::standing::StandingSearch;
+use super::standing::{GoalHeading, StandingGoal, StandingSearch};
 use super::traits::RobotTraits;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
 use crate::geometry::{Path, Point, Pose};
@@ -225,12 +225,15 @@ impl Lookout {
         if weighed.assessed.iter().any(|a| unreachable(&a)) {
             let widest = self.audit.widest_reach(&map.grid, situation.driven, robot);
             let radius_m = situation.settings.goal.search_radius_m;
-            let reach = map.grid.info().cells(radius_m).ceil().clamp(0.0, 1e4) as u32;
-            let near = |a: &&Assessed| {
-                let cell = map.grid.info().cell_at(a.target);
-                widest.as_ref().is_some_and(|field| field.reaches_near(cell, reach))
+            let standing = &mut self.standing;
+            let mut could_see = |a: &&Assessed| {
+                // Where the robot has been, it need not come again: only nearer.
+                let radius_m = a.spent_m.map_or(radius_m, |spent_m| spent_m - CLOSER_M);
+                let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
+                radius_m > 0.0
+                    && widest.as_ref().is_some_and(|field| standing.goal(field, robot, a.target, &search).is_some())
             };
-            barred = weighed.assessed.iter().filter(unreachable).filter(near).count();
+            barred = weighed.assessed.iter().filter(unreachable).filter(|a| could_see(a)).count();
         }
         Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket }
     }
@@ -293,6 +296,8 @@ impl Lookout {
     }
 }
 
+/// A place nearer by this is worth another visit, metres.
+const CLOSER_M: f64 = 0.25;
 /// A place smaller than this is a pocket and not the robot's world, square metres.
 const POCKET_M2: f64 = 1.0;
 

@@ -9,6 +9,7 @@
 
 mod drive;
 mod follow;
+mod notices;
 mod pause;
 mod recover;
 
@@ -32,9 +33,6 @@ const TURN_TIMEOUT_S: f64 = 60.0;
 /// The longest that backing off may take, seconds.
 const BACK_OFF_TIMEOUT_S: f64 = 15.0;
 
-/// A step by more than this beyond what the robot can drive is a jump, metres.
-const JUMP_M: f64 = 0.5;
-
 /// Explores: hand it every observation, obey its decisions.
 pub struct Explorer {
     settings: ExplorerSettings,
@@ -54,10 +52,12 @@ pub struct Explorer {
     navigation_lost_since_s: Option<f64>,
     map_lost_since_s: Option<f64>,
     /// Goals that were reached, until a newer map shows what became of their frontiers.
-    arrivals: Vec<Point>,
+    arrivals: Vec<(Point, Point)>,
     recoveries_in_a_row: u32,
     left_behind: LeftBehind,
     notice: Option<String>,
+    /// When the age of a stale map was last told, seconds.
+    stale_told_s: f64,
     last_pose: Option<(f64, Pose)>,
     top_speed_mps: f64,
 }
@@ -90,6 +90,7 @@ impl Explorer {
             recoveries_in_a_row: 0,
             left_behind: LeftBehind::default(),
             notice: None,
+            stale_told_s: f64::NEG_INFINITY,
             last_pose: None,
             top_speed_mps: robot.body.limits.max_linear_mps,
         })
@@ -196,17 +197,6 @@ impl Explorer {
         self.end_without_news(now_s);
         let record = self.advance(observation, pose);
         self.state.decision(record)
-    }
-
-    /// A pose that no robot can have driven to: the map was moved under it, by a loop that
-    /// closed or by a mapper that lost its way. What was seen from where counts no more.
-    fn notice_jump(&mut self, pose: &Pose, now_s: f64) {
-        let Some((last_s, last)) = self.last_pose.replace((now_s, *pose)) else { return };
-        let moved_m = pose.distance_to(last.position());
-        if moved_m > JUMP_M + self.top_speed_mps * (now_s - last_s) {
-            self.sights.forget();
-            self.notice = Some(format!("the map jumped under the robot by {moved_m:.1} m"));
-        }
     }
 
     /// Moves the state on, at most a few times in one tick.

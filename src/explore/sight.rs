@@ -101,6 +101,12 @@ impl Sights {
         }
     }
 
+    /// Whether the robot sees all round.
+    #[must_use]
+    pub fn is_all_round(&self) -> bool {
+        self.sight.is_all_round()
+    }
+
     /// Nothing that was seen before counts any more, as after a jump of the map under the
     /// robot.
     pub fn forget(&mut self) {

@@ -31,14 +31,29 @@ const MARGIN_CELLS: i32 = 2;
 /// For that it may lie this much farther from the target, metres.
 const DETOUR_M: f64 = 0.5;
 
-/// How many cells all round a cell are clear of obstacles with the robot's radius and
-/// padding: none at the rim, two at most, and -1 where it cannot turn.
-fn margin_cells(costmap: &Costmap, cell: Cell) -> i32 {
-    let is_clear = |around: i32| {
-        let offsets = (-around..=around).flat_map(|dy| (-around..=around).map(move |dx| (dx, dy)));
-        offsets.map(|offset| costmap.cost(cell.offset(offset))).all(|cost| cost < NARROW_COST || cost == UNKNOWN_COST)
-    };
-    (0..=MARGIN_CELLS).take_while(|&around| is_clear(around)).last().unwrap_or(-1)
+/// What is better than a margin of two cells: one without unknown cells.
+const ALL_KNOWN: i32 = MARGIN_CELLS + 1;
+
+/// How good a place a cell is. -1 where the robot cannot turn; else how many cells all round
+/// it are clear of obstacles with the robot's radius and padding, two at most; one more where
+/// all of these are known, for behind an unknown cell there may be a wall that the next map
+/// shows.
+fn quality(costmap: &Costmap, cell: Cell) -> i32 {
+    let mut knows_all = true;
+    for around in 0..=MARGIN_CELLS {
+        for dy in -around..=around {
+            // The cells inside were looked at in the rounds before.
+            let step = if dy.abs() == around { 1 } else { (2 * around).max(1) };
+            for dx in (-around..=around).step_by(step as usize) {
+                match costmap.cost(cell.offset((dx, dy))) {
+                    UNKNOWN_COST => knows_all = false,
+                    cost if cost < NARROW_COST => {}
+                    _ => return around - 1,
+                }
+            }
+        }
+    }
+    if knows_all { ALL_KNOWN } else { MARGIN_CELLS }
 }
 
 /// Looks for places to stand; kept for its memory, as a decision asks for hundreds.
@@ -59,8 +74,8 @@ const ALWAYS: u32 = u32::MAX;
 impl StandingSearch {
     /// The place nearest to `target` where the robot can stand and to which it can get,
     /// found by a flood that no obstacle lets through: never a place on the other side of
-    /// a wall. A place that keeps two cells from what the robot's centre cannot be in is
-    /// taken rather than one that does not, where it is little farther off: planners that
+    /// a wall. A place that keeps two cells from what the robot's centre cannot be in, and
+    /// from what is unknown, is taken rather than one that does not, where it is little farther off: planners that
     /// compute with other roundings, or on a map of a second later, refuse the rim. Where
     /// the robot can stand and cannot turn there is no place to stand.
     /// `refused` are places that have failed. `None` when there is none within `radius_m`.
@@ -93,14 +108,14 @@ impl StandingSearch {
             next += 1;
             let away_cells = (cell.distance_squared(center) as f64).sqrt();
             if away_cells <= enough_cells && field.reaches(cell) && !(search.refused)(info.center(cell)) {
-                let margin = margin_cells(costmap, cell);
-                if margin >= 0 && best.is_none() {
+                let quality = quality(costmap, cell);
+                if quality >= 0 && best.is_none() {
                     enough_cells = away_cells + info.cells(DETOUR_M);
                 }
-                if margin >= 0 && best.is_none_or(|(widest, _)| margin > widest) {
-                    best = Some((margin, cell));
+                if quality >= 0 && best.is_none_or(|(highest, _)| quality > highest) {
+                    best = Some((quality, cell));
                 }
-                if margin >= MARGIN_CELLS {
+                if quality >= ALL_KNOWN {
                     break;
                 }
             }

@@ -6,7 +6,8 @@ use crate::geometry::{Point, Pose};
 const WEDGED_WITHIN_M: f64 = 0.5;
 /// Failures within this distance of each other are from one place, metres.
 const ONE_PLACE_M: f64 = 0.3;
-/// From one place the robot backs off so many times before the goals are to blame after all.
+/// From one place the robot backs off so many times in vain before it gives that up, and so
+/// many times in all before the goals that lead there are to blame after all.
 const BACK_OFFS: u32 = 3;
 /// So much more that is known is new ground, square metres.
 const NEW_GROUND_M2: f64 = 1.0;
@@ -27,6 +28,8 @@ pub struct Trouble {
     spot: Option<Point>,
     failures_here: u32,
     back_offs_here: u32,
+    /// Of these, how many in a row led nowhere.
+    vain_here: u32,
     /// What was known at the last success, square metres.
     known_m2: f64,
     /// Since then, and when that was counted last, seconds.
@@ -42,6 +45,7 @@ impl Trouble {
         self.spot = None;
         self.failures_here = 0;
         self.back_offs_here = 0;
+        self.vain_here = 0;
     }
 
     /// A map knows so much at a time: square metres and seconds.
@@ -67,15 +71,18 @@ impl Trouble {
         }
     }
 
-    /// The robot got away from where it was by backing off: it can move.
-    pub const fn has_got_away(&mut self) {
+    /// The robot got away from where it was by backing off: it can move. Whether what failed
+    /// there is not to blame; goals that lead there again and again are.
+    pub const fn has_got_away(&mut self) -> bool {
         self.farthest_m = f64::INFINITY;
+        self.vain_here = 0;
+        self.back_offs_here <= BACK_OFFS
     }
 
     /// The next failure at this pose is the place's, though it is the first.
     pub fn is_wedged_here(&mut self, pose: &Pose) {
         if self.spot.is_none_or(|spot| pose.distance_to(spot) > ONE_PLACE_M) {
-            (self.spot, self.failures_here, self.back_offs_here) = (Some(pose.position()), 1, 0);
+            self.is_at(pose);
         }
     }
 
@@ -86,7 +93,7 @@ impl Trouble {
         if self.spot.is_some_and(|spot| pose.distance_to(spot) <= ONE_PLACE_M) {
             self.failures_here += 1;
         } else {
-            (self.spot, self.failures_here, self.back_offs_here) = (Some(pose.position()), 1, 0);
+            self.is_at(pose);
         }
         self.failures_here >= 2 && self.may_back_off()
     }
@@ -94,7 +101,8 @@ impl Trouble {
     /// Whether the robot has not backed off too often from here, and counts one more.
     pub const fn may_back_off(&mut self) -> bool {
         self.back_offs_here += 1;
-        self.back_offs_here <= BACK_OFFS
+        self.vain_here += 1;
+        self.vain_here <= BACK_OFFS
     }
 
     /// Nothing is left to try in this round: the rest before the next one, seconds.
@@ -114,6 +122,12 @@ impl Trouble {
     #[must_use]
     pub fn is_wedged(&self) -> bool {
         self.began.is_some() && self.farthest_m < WEDGED_WITHIN_M
+    }
+
+    /// A failure at another place than the last one's.
+    fn is_at(&mut self, pose: &Pose) {
+        (self.spot, self.failures_here) = (Some(pose.position()), 1);
+        (self.back_offs_here, self.vain_here) = (0, 0);
     }
 
     fn begin(&mut self, pose: &Pose, now_s: f64) {

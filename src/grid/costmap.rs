@@ -11,7 +11,10 @@ pub const FREE_COST: u8 = 0;
 /// collision (costmap_2d's `INSCRIBED_INFLATED_OBSTACLE`).
 pub const INSCRIBED_COST: u8 = 253;
 /// The highest cost of a cell that the robot's centre may be in.
-pub const NARROW_COST: u8 = 252;
+pub const HIGHEST_COST: u8 = 252;
+/// From this cost up to the highest, the robot's centre may be in a cell and the robot cannot
+/// turn there.
+pub const NARROW_COST: u8 = 200;
 /// Cost of an obstacle itself (costmap_2d's `LETHAL_OBSTACLE`).
 pub const LETHAL_COST: u8 = 254;
 /// Cost of a cell that nobody has seen (costmap_2d's `NO_INFORMATION`).
@@ -27,8 +30,8 @@ pub struct Inflation {
     /// Nearer than this to an obstacle the robot's centre cannot be, metres.
     pub inscribed_radius_m: f64,
     /// From there up to this distance the robot's centre can be, though not with every
-    /// heading, or not with the padding that is wanted: such cells cost as much as a
-    /// passable cell can. Metres; nothing where it is less than the inscribed radius.
+    /// heading, or not with the padding that is wanted: such cells cost [`NARROW_COST`] or
+    /// more. Metres; nothing where it is less than the inscribed radius.
     pub clear_radius_m: f64,
     /// How far from an obstacle costs reach, metres.
     pub inflation_radius_m: f64,
@@ -39,17 +42,23 @@ pub struct Inflation {
 impl Inflation {
     /// Cost at a distance in metres from the nearest obstacle, as
     /// `InflationLayer::computeCost` has it: lethal at 0, inscribed up to the
-    /// inscribed radius, then `252 exp(-cost_scaling_factor (d - inscribed))`; here with
-    /// 252 up to the clear radius, from which the decay begins.
+    /// inscribed radius, then `252 exp(-cost_scaling_factor (d - inscribed))`. Where there
+    /// is a clear radius, costs fall evenly to [`NARROW_COST`] there, so that ways lead along
+    /// the middle of what is narrow, and decay from 199 beyond it.
     #[must_use]
     pub fn cost(&self, distance_m: f64) -> u8 {
         if distance_m <= 0.0 {
             LETHAL_COST
         } else if distance_m <= self.inscribed_radius_m {
             INSCRIBED_COST
+        } else if distance_m <= self.clear_radius_m {
+            let share = (distance_m - self.inscribed_radius_m) / (self.clear_radius_m - self.inscribed_radius_m);
+            (f64::from(HIGHEST_COST) - share * f64::from(HIGHEST_COST - NARROW_COST)) as u8
         } else {
-            let beyond_m = (distance_m - self.inscribed_radius_m.max(self.clear_radius_m)).max(0.0);
-            (f64::from(NARROW_COST) * (-self.cost_scaling_factor * beyond_m).exp()) as u8
+            let has_narrow = self.clear_radius_m > self.inscribed_radius_m;
+            let highest = if has_narrow { NARROW_COST - 1 } else { HIGHEST_COST };
+            let beyond_m = distance_m - self.inscribed_radius_m.max(self.clear_radius_m);
+            (f64::from(highest) * (-self.cost_scaling_factor * beyond_m).exp()) as u8
         }
     }
 
@@ -127,28 +136,30 @@ impl Costmap {
         (costs.len() == info.len()).then_some(Self { info, costs })
     }
 
-    /// The same costmap for a robot that keeps to where it can turn: what is passable at
-    /// the highest cost alone, as by [`Inflation::clear_radius_m`], is not. `None` where that
+    /// The same costmap for a robot that keeps to where it can turn: what is passable and
+    /// narrow, as by [`Inflation::clear_radius_m`], is not. `None` where that
     /// changes nothing.
     #[must_use]
     pub fn without_narrow(&self) -> Option<Self> {
-        if !self.costs.contains(&NARROW_COST) {
+        let is_narrow = |cost: u8| (NARROW_COST..INSCRIBED_COST).contains(&cost);
+        if !self.costs.iter().any(|&cost| is_narrow(cost)) {
             return None;
         }
-        let costs = self.costs.iter().map(|&cost| if cost == NARROW_COST { INSCRIBED_COST } else { cost });
+        let costs = self.costs.iter().map(|&cost| if is_narrow(cost) { INSCRIBED_COST } else { cost });
         Some(Self { info: self.info, costs: costs.collect() })
     }
 
     /// The same costmap where another one of the same ground knows of more: its lethal and
-    /// inscribed cells are such here too, and its costs count where they are higher. What it
-    /// does not know says nothing.
+    /// inscribed cells are such here too, and its costs count where they are higher: they say
+    /// nothing about room to turn. What it does not know says nothing.
     #[must_use]
     pub fn with_obstacles_of(&self, other: &Self) -> Self {
         let higher = |own: u8, theirs: u8| match (own, theirs) {
             (_, UNKNOWN_COST) => own,
             (UNKNOWN_COST, INSCRIBED_COST | LETHAL_COST) => theirs,
             (UNKNOWN_COST, _) => own,
-            _ => own.max(theirs),
+            (_, INSCRIBED_COST | LETHAL_COST) => own.max(theirs),
+            _ => own.max(theirs.min(NARROW_COST - 1)),
         };
         let costs = if self.info == other.info {
             self.costs.iter().zip(&other.costs).map(|(&own, &theirs)| higher(own, theirs)).collect()
@@ -259,6 +270,19 @@ mod tests {
         let costmap = Costmap::inflate(&grid, &Thresholds::default(), &INFLATION);
         // 252 e^-1 = 92.7, 252 e^-2 = 34.1; beyond the inflation radius nothing.
         assert_eq!(costmap.costs(), &[254, 253, 92, 34, 0, 0, 0]);
+    }
+
+    #[test]
+    fn what_is_narrow_costs_most_and_least_in_its_middle() {
+        let grid = OccupancyGrid::from_ascii("#.....").unwrap();
+        let narrow = Inflation { clear_radius_m: 3.0, inflation_radius_m: 9.0, ..INFLATION };
+        let costmap = Costmap::inflate(&grid, &Thresholds::default(), &narrow);
+        // Half way from 252 to 200, then 199 e^-1 = 73.2, 199 e^-2 = 26.9.
+        assert_eq!(costmap.costs(), &[254, 253, 226, 200, 73, 26]);
+        let roomy = costmap.without_narrow().unwrap();
+        assert_eq!(roomy.costs(), &[254, 253, 253, 253, 73, 26]);
+        let theirs = Costmap::from_costs(*grid.info(), vec![0, 0, 0, 253, 252, 0]).unwrap();
+        assert_eq!(roomy.with_obstacles_of(&theirs).costs(), &[254, 253, 253, 253, 199, 26]);
     }
 
     #[test]

@@ -26,7 +26,9 @@ mod vertical;
 pub use bitplane::{BitPlane, BitWork, WORD_CELLS, with_bit_instructions};
 pub use bitplanes::BitPlanes;
 pub use classify::Classifier;
-pub use costmap::{Costmap, FREE_COST, INSCRIBED_COST, Inflation, LETHAL_COST, NARROW_COST, UNKNOWN_COST};
+pub use costmap::{
+    Costmap, FREE_COST, HIGHEST_COST, INSCRIBED_COST, Inflation, LETHAL_COST, NARROW_COST, UNKNOWN_COST,
+};
 pub use distance::squared_distance_cells;
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
 pub use occupancy::{Census, GridError, OccupancyGrid};

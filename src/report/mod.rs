@@ -31,7 +31,7 @@ pub use html::HtmlReport;
 pub use overlay::{Overlay, OverlayFrontier};
 pub use picture::{Picture, PictureGoal};
 pub use plots::{coverage_svg, distance_svg};
-pub use run_json::{MedianMax, RunRecord, SCHEMA_VERSION, Wall};
+pub use run_json::{MedianMax, Notice, RunRecord, SCHEMA_VERSION, Wall};
 pub use series::{ByShare, COVERAGE_SHARES, Series, SeriesPoint};
 pub use theme::{Ink, Rgb, Theme};
 pub use view::{Bounds, SizeLimits, View};

@@ -67,6 +67,9 @@ pub struct RunRecord<D = DecisionRecord> {
     /// Where the time went, seconds.
     #[serde(default)]
     pub time_spent: TimeSpent,
+    /// What was told on the way: failed goals, stale maps, jumps.
+    #[serde(default)]
+    pub notices: Vec<Notice>,
     /// Frontiers that were left.
     pub left_behind: LeftBehind,
     /// All decisions in order of time.
@@ -75,6 +78,15 @@ pub struct RunRecord<D = DecisionRecord> {
     pub series: Vec<SeriesPoint>,
     /// What the computer took. The last key, so that it is easily cut off.
     pub wall: Wall,
+}
+
+/// Something that was told while the run went on.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Notice {
+    /// When, in the robot's own time, seconds.
+    pub time_s: f64,
+    /// A sentence.
+    pub text: String,
 }
 
 /// What a run took on the computer, in real time.
@@ -233,7 +245,7 @@ mod tests {
         let top: Vec<&str> = json.lines().filter_map(|line| line.strip_prefix("  \"")?.split('"').next()).collect();
         assert_eq!(top.first(), Some(&"schema_version"));
         assert_eq!(top.last(), Some(&"wall"));
-        assert_eq!(top.len(), 25);
+        assert_eq!(top.len(), 26);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A made-up run for the tests of this module.
 
-use super::run_json::{MedianMax, RunRecord, SCHEMA_VERSION, Wall};
+use super::run_json::{MedianMax, Notice, RunRecord, SCHEMA_VERSION, Wall};
 use super::series::Series;
 use crate::explore::{
     CandidateRecord, CandidateStatus, Counts, DecisionRecord, EndReason, LeftBehind, Position, TimeSpent,
@@ -76,6 +76,7 @@ pub(super) fn run() -> RunRecord {
             detections: 40,
         },
         time_spent: TimeSpent { driving_s: 20.0, turning_s: 6.5, waiting_for_map_s: 2.0, ..TimeSpent::default() },
+        notices: vec![Notice { time_s: 12.0, text: "the goal at (1.00, 2.00) m failed: no path".to_owned() }],
         left_behind: LeftBehind { frontiers: 1, unreachable: 1, ..LeftBehind::default() },
         decisions: vec![decision(0.0), decision(31.7)],
         series: series.points(),

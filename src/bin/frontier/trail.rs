@@ -3,7 +3,7 @@
 
 use frontier_explorer::explore::{CandidateStatus, Decision, DecisionRecord, Explorer};
 use frontier_explorer::geometry::Point;
-use frontier_explorer::report::{Frame, FrameLog, MedianMax, PictureGoal, Wall};
+use frontier_explorer::report::{Frame, FrameLog, MedianMax, Notice, PictureGoal, Wall};
 use frontier_explorer::robot::Observation;
 use std::sync::Arc;
 use std::time::Instant;
@@ -18,6 +18,8 @@ pub struct Trail {
     failed_before: usize,
     /// All decisions, if they are wanted.
     pub decisions: Vec<DecisionRecord>,
+    /// What was told on the way.
+    pub notices: Vec<Notice>,
     /// The way driven.
     pub trajectory: Vec<Point>,
     /// The goals, and whether they failed.
@@ -40,6 +42,7 @@ impl Trail {
             decision_ms: Vec::new(),
             failed_before: 0,
             decisions: Vec::new(),
+            notices: Vec::new(),
             trajectory: Vec::new(),
             goals: Vec::new(),
             frames: None,
@@ -61,6 +64,9 @@ impl Trail {
             goal.failed = true;
         }
         self.failed_before = failed;
+        if let Some(text) = &decision.notice {
+            self.notices.push(Notice { time_s: observation.stamp_s, text: text.clone() });
+        }
         if let Some(record) = &decision.record {
             self.decision_ms.push(step_ms);
             let is_chosen = record.candidates.iter().any(|c| c.status == CandidateStatus::Chosen);

@@ -29,7 +29,7 @@ impl Explorer {
                 self.trouble.is_over();
                 self.state = State::Ready;
                 if !is_stage {
-                    self.arrivals.push(target);
+                    self.arrivals.push((target, pose.position()));
                     if self.settings.turns.at_goal {
                         self.look_round(now_s);
                     }

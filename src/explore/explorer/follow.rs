@@ -73,16 +73,18 @@ impl Explorer {
     }
 
     /// Frontiers that are still there, on a map of after the robot was at their goals, have
-    /// been visited in vain once more.
+    /// been visited in vain once more: whatever cell now stands for them.
     fn count_visits(&mut self, decided: &Decided) {
         if !self.watch.is_fresh() {
             return;
         }
         let radius_m = self.settings.taboo.radius_m;
-        for arrival in std::mem::take(&mut self.arrivals) {
-            let is_there = |target: Point| nalgebra::distance(&target, &arrival) <= radius_m;
-            if decided.record.candidates.iter().any(|c| is_there(Point::new(c.target.x, c.target.y))) {
-                self.blacklist.record_visit(arrival);
+        for (target, place) in std::mem::take(&mut self.arrivals) {
+            let is_there = |point: Point| nalgebra::distance(&point, &target) <= radius_m;
+            let mut targets = decided.record.candidates.iter().map(|c| Point::new(c.target.x, c.target.y));
+            let mut cells = self.lookout.frontiers().iter().flat_map(|frontier| &frontier.cells);
+            if targets.any(is_there) || cells.any(|&cell| is_there(cell)) {
+                self.blacklist.record_visit(target, place);
             }
         }
     }
@@ -138,7 +140,7 @@ impl Explorer {
         }
         if let Some(target) = decided.here {
             // Nothing else is left: look round once more from where the robot stands.
-            self.blacklist.record_visit(target);
+            self.blacklist.record_visit(target, pose.position());
             "the robot already stands where the last frontier is seen from: look round".clone_into(&mut record.why);
             self.look_round(now_s);
             return;

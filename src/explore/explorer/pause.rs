@@ -70,8 +70,7 @@ impl Explorer {
                 format!("no newer map has come for {overdue_s:.0} s though the robot moved: is the mapper alive?");
             self.end_now(EndReason::NoMap, now_s, &message);
         } else if overdue_s >= limit_s / 4.0 {
-            self.notice =
-                Some(format!("the map is stale: no newer one has come for {overdue_s:.0} s though the robot moved"));
+            self.notice_stale_map(overdue_s, now_s);
         }
     }
 }

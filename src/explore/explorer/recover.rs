@@ -25,8 +25,7 @@ impl Explorer {
 
     /// A robot that got away was wedged, and what failed there is not to blame.
     pub(super) fn end_of_back_off(&mut self, pose: Pose, from: Point) {
-        if pose.distance_to(from) >= GOT_AWAY_M {
-            self.trouble.has_got_away();
+        if pose.distance_to(from) >= GOT_AWAY_M && self.trouble.has_got_away() {
             self.blacklist.forgive_from(from, WEDGED_M);
         }
     }

@@ -5,7 +5,7 @@ use super::super::log::Level;
 use super::super::msg::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus, KeyValue};
 use super::super::msg::frontier_explorer::ExplorationStatus;
 use super::super::msg::geometry_msgs::{Point32, Polygon as PolygonMessage, PolygonStamped};
-use crate::explore::{Counts, End, EndReason, Phase};
+use crate::explore::{Counts, End, EndReason, Phase, TimeSpent};
 use crate::geometry::Polygon;
 
 /// What a status is made of.
@@ -37,6 +37,8 @@ pub struct StatusInput<'a> {
     pub frontiers: usize,
     /// What was done so far.
     pub counts: &'a Counts,
+    /// Where the time went.
+    pub time_spent: &'a TimeSpent,
     /// Age of the map, seconds; NaN while there is none.
     pub map_age_s: f64,
 }
@@ -62,6 +64,13 @@ pub fn status(input: &StatusInput<'_>) -> ExplorationStatus {
         turns: count(input.counts.turns),
         recoveries: count(input.counts.recoveries),
         map_age_s: input.map_age_s,
+        driving_s: input.time_spent.driving_s,
+        turning_s: input.time_spent.turning_s,
+        waiting_for_map_s: input.time_spent.waiting_for_map_s,
+        waiting_for_motion_s: input.time_spent.waiting_for_motion_s,
+        waiting_for_navigation_s: input.time_spent.waiting_for_navigation_s,
+        waiting_for_pose_s: input.time_spent.waiting_for_pose_s,
+        resting_s: input.time_spent.pausing_s,
     }
 }
 
@@ -91,6 +100,9 @@ pub fn diagnostics(node: &str, status: &ExplorationStatus, trouble: Option<Level
     let values = vec![
         value("preset", status.preset.clone()),
         value("elapsed [s]", format!("{:.1}", status.elapsed_s)),
+        value("driving [s]", format!("{:.1}", status.driving_s)),
+        value("turning [s]", format!("{:.1}", status.turning_s)),
+        value("standing [s]", format!("{:.1}", (status.elapsed_s - status.driving_s - status.turning_s).max(0.0))),
         value("driven [m]", format!("{:.1}", status.distance_m)),
         value("known [m2]", format!("{:.1}", status.known_area_m2)),
         value("frontiers", status.frontiers.to_string()),

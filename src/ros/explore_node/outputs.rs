@@ -3,7 +3,7 @@
 use super::connect::Connected;
 use super::saving::MapSaver;
 use super::{ExploreNodeError, Settings};
-use crate::explore::{Counts, DecisionRecord, Explorer, Phase};
+use crate::explore::{Counts, DecisionRecord, Explorer, Phase, TimeSpent};
 use crate::geometry::Path;
 use crate::ros::convert;
 use crate::ros::display::{
@@ -69,6 +69,7 @@ impl Outputs {
             free_area_m2: 0.0,
             frontiers: 0,
             counts: &Counts::default(),
+            time_spent: &TimeSpent::default(),
             map_age_s: f64::NAN,
         };
         let shared = Arc::new(Mutex::new(status(&first)));

@@ -3,10 +3,10 @@
 
 use super::controls::Controls;
 use super::outputs::Outputs;
-use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
+use crate::explore::{Counts, Decision, End, Explorer, Phase, TimeSpent, Watcher};
 use crate::geometry::Pose;
 use crate::grid::Thresholds;
-use crate::robot::{NavigationState, Observation};
+use crate::robot::Observation;
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
 use crate::ros::msg::frontier_explorer::ExplorationStatus;
@@ -32,7 +32,7 @@ pub struct NodeWatcher<'a> {
     frame: String,
     message: String,
     region_shown: bool,
-    failed_before: usize,
+    time_spent: TimeSpent,
     last_goal: Option<Pose>,
     /// Goals that were really sent.
     goals_sent: usize,
@@ -56,7 +56,7 @@ impl<'a> NodeWatcher<'a> {
             frame: "map".to_owned(),
             message: "waiting for the first map".to_owned(),
             region_shown: false,
-            failed_before: 0,
+            time_spent: TimeSpent::default(),
             last_goal: None,
             goals_sent: 0,
         }
@@ -65,6 +65,7 @@ impl<'a> NodeWatcher<'a> {
     /// Tells the end, and returns the last status.
     pub fn finish(&mut self, robot: &RosRobot, explorer: &Explorer, end: &End) -> ExplorationStatus {
         self.goals_sent = robot.goals_sent();
+        self.time_spent = *explorer.time_spent();
         end.message.clone_into(&mut self.message);
         let last = self.status(Phase::Ended, explorer.counts(), Some(end));
         self.outputs.set_status(last.clone());
@@ -88,6 +89,7 @@ impl<'a> NodeWatcher<'a> {
             frontiers: self.frontiers,
             // The explorer counts what it chose, also where nobody was there to drive.
             counts: &Counts { goals_sent: counts.goals_sent.min(self.goals_sent), ..*counts },
+            time_spent: &self.time_spent,
             map_age_s: f64::NAN,
         })
     }
@@ -150,15 +152,10 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         self.count_area(robot);
         self.goals_sent = robot.goals_sent();
         let counts = explorer.counts();
-        if counts.goals_failed > self.failed_before {
-            let why = match &observation.navigation.state {
-                NavigationState::Aborted(why) => why.as_str(),
-                _ => "no progress",
-            };
-            let (failed, sent) = (counts.goals_failed, counts.goals_sent);
-            self.node.log().warn(format_args!("a goal failed: {why} ({failed} of {sent} so far)"));
+        self.time_spent = *explorer.time_spent();
+        if let Some(notice) = &decision.notice {
+            self.node.log().warn(notice);
         }
-        self.failed_before = counts.goals_failed;
         if let Some(sentence) = phase_sentence(decision.phase) {
             sentence.clone_into(&mut self.message);
         }

@@ -13,7 +13,7 @@
 //! follow the gradient and are a little smoother.
 
 use crate::geometry::{Path, Point, Pose};
-use crate::grid::{Cell, Costmap, GridInfo, LETHAL_COST, NARROW_COST, UNKNOWN_COST};
+use crate::grid::{Cell, Costmap, GridInfo, HIGHEST_COST, LETHAL_COST, UNKNOWN_COST};
 use crate::planning::{Astar, GlobalPlanner, PlanError};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -108,7 +108,7 @@ fn on(info: &GridInfo, cell: Cell, pose: &Pose) -> Pose {
 fn weigh(costmap: &Costmap, allow_unknown: bool) -> Costmap {
     let weight = |cost: u8| match cost {
         UNKNOWN_COST if allow_unknown => (HIGHEST_WEIGHT * 5 / 4) as u8,
-        0..NARROW_COST => ((COST_FACTOR * u32::from(cost)).min(HIGHEST_WEIGHT) * 5 / 4) as u8,
+        0..HIGHEST_COST => ((COST_FACTOR * u32::from(cost)).min(HIGHEST_WEIGHT) * 5 / 4) as u8,
         _ => LETHAL_COST,
     };
     let info = *costmap.info();

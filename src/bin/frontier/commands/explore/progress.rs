@@ -58,6 +58,18 @@ impl Progress {
         }
     }
 
+    /// Tells what happened, above the bar.
+    pub fn tell(&self, time_s: f64, text: &str) {
+        let line = format!("at {time_s:.0} s: {text}");
+        match self {
+            Self::Quiet => {}
+            Self::Bar(bar) => bar.println(line),
+            Self::Lines { .. } => {
+                let _ = writeln!(std::io::stderr(), "{line}");
+            }
+        }
+    }
+
     /// Takes the bar away, or writes the last line.
     pub fn finish(&mut self, stats: &SimStats) {
         match self {

@@ -66,6 +66,7 @@ impl Recorder {
             distance_to_coverage_m: self.series.distance_to_coverage_m(),
             counts,
             time_spent: *explorer.time_spent(),
+            notices: std::mem::take(&mut self.trail.notices),
             left_behind: end.left_behind,
             decisions: std::mem::take(&mut self.trail.decisions),
             series: self.series.points(),
@@ -83,6 +84,9 @@ impl Watcher<SimRobot> for Recorder {
         self.trail.after_step(explorer, observation, decision);
         let stats = sim.stats();
         self.series.push(stats.sim_time_s, stats.coverage, stats.distance_m);
+        if let Some(text) = &decision.notice {
+            self.progress.tell(observation.stamp_s, text);
+        }
         self.progress.show(&stats);
         if let Some(bag) = &mut self.bag {
             bag.tick(sim, observation, decision);

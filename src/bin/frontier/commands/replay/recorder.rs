@@ -117,6 +117,7 @@ impl<'a> Recorder<'a> {
             distance_to_coverage_m: series.distance_to_coverage_m(),
             counts,
             time_spent: *explorer.time_spent(),
+            notices: std::mem::take(&mut self.trail.notices),
             left_behind: end.left_behind,
             decisions: std::mem::take(&mut self.trail.decisions),
             series: series.points(),
