@@ -18,8 +18,8 @@ pub struct TabooConfig {
     pub max_failures: u32,
     /// What has failed is not tried again in later rounds either (Yamauchi 1997).
     pub is_final: bool,
-    /// A frontier is exhausted after the robot was at its goal this often and newer maps
-    /// showed no change, also where nothing proves that it was in sight.
+    /// A place to stand is spent after the robot was there this often and newer maps showed
+    /// no change: only one closer to the frontier is worth a visit then.
     pub max_visits: u32,
 }
 
@@ -142,13 +142,6 @@ impl Blacklist {
         }
     }
 
-    /// The places that are taboo now, for markers.
-    pub fn places(&self) -> impl Iterator<Item = (Point, Taboo)> + '_ {
-        let failed = self.entries.iter().filter(|entry| self.has_failed(entry.target));
-        let spent = self.visits.iter().filter(|visit| self.is_spent(visit.place, visit.target, false));
-        failed.map(|e| (e.target, Taboo::Failed)).chain(spent.map(|visit| (visit.target, Taboo::Exhausted)))
-    }
-
     fn entry(&mut self, target: Point) -> &mut Entry {
         let radius_m = self.config.radius_m;
         let known = self.entries.iter().position(|e| nalgebra::distance(&e.target, &target) <= radius_m);
@@ -210,6 +203,5 @@ mod tests {
         assert!(!list.is_spent(Point::new(0.5, 0.0), target, false), "a closer look");
         let other = Point::new(2.0, 0.0);
         assert!(!list.is_spent(stand, other, false) && list.is_spent(stand, other, true));
-        assert!(list.places().all(|(_, taboo)| taboo == Taboo::Exhausted));
     }
 }

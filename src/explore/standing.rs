@@ -31,29 +31,52 @@ const MARGIN_CELLS: i32 = 2;
 /// For that it may lie this much farther from the target, metres.
 const DETOUR_M: f64 = 0.5;
 
-/// What is better than a margin of two cells: one without unknown cells.
-const ALL_KNOWN: i32 = MARGIN_CELLS + 1;
+/// So far from what is unknown a place is best, metres: a wall that nobody has seen may stand
+/// right there, and a map of a second later shows it.
+const FROM_UNKNOWN_M: f64 = 0.25;
+/// At most so many cells are looked at for that.
+const MOST_KNOWN_CELLS: f64 = 10.0;
 
-/// How good a place a cell is. -1 where the robot cannot turn; else how many cells all round
-/// it are clear of obstacles with the robot's radius and padding, two at most; one more where
-/// all of these are known, for behind an unknown cell there may be a wall that the next map
-/// shows.
-fn quality(costmap: &Costmap, cell: Cell) -> i32 {
-    let mut knows_all = true;
-    for around in 0..=MARGIN_CELLS {
-        for dy in -around..=around {
-            // The cells inside were looked at in the rounds before.
-            let step = if dy.abs() == around { 1 } else { (2 * around).max(1) };
-            for dx in (-around..=around).step_by(step as usize) {
-                match costmap.cost(cell.offset((dx, dy))) {
-                    UNKNOWN_COST => knows_all = false,
-                    cost if cost < NARROW_COST => {}
-                    _ => return around - 1,
+/// How good a place is, the more the better.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Quality {
+    /// How many cells all round are clear of obstacles with the robot's radius and padding: none
+    /// at the rim, two at most.
+    clear: i32,
+    /// How many cells all round are known, as far as that matters.
+    known: i32,
+}
+
+impl Quality {
+    /// The best that there is where so many known cells matter.
+    const fn best(known: i32) -> Self {
+        Self { clear: MARGIN_CELLS, known }
+    }
+
+    /// That of a cell; `None` where the robot cannot turn.
+    fn of(costmap: &Costmap, cell: Cell, known_cells: i32) -> Option<Self> {
+        let mut quality = Self::best(known_cells);
+        for around in 0..=MARGIN_CELLS.max(known_cells) {
+            let near = around - 1;
+            for dy in -around..=around {
+                // The cells inside were looked at in the rounds before.
+                let step = if dy.abs() == around { 1 } else { (2 * around).max(1) };
+                for dx in (-around..=around).step_by(step as usize) {
+                    match costmap.cost(cell.offset((dx, dy))) {
+                        UNKNOWN_COST => quality.known = quality.known.min(near),
+                        cost if cost < NARROW_COST => {}
+                        _ => quality.clear = quality.clear.min(near),
+                    }
                 }
             }
+            let is_clear_settled = quality.clear < around || around >= MARGIN_CELLS;
+            let is_known_settled = quality.known < around || around >= known_cells;
+            if is_clear_settled && is_known_settled {
+                break;
+            }
         }
+        (quality.clear >= 0).then_some(quality)
     }
-    if knows_all { ALL_KNOWN } else { MARGIN_CELLS }
 }
 
 /// Looks for places to stand; kept for its memory, as a decision asks for hundreds.
@@ -101,21 +124,24 @@ impl StandingSearch {
         let middle = self.met.len() / 2;
         self.queue.push((center, middle));
         self.met[middle] = self.search;
-        let mut best: Option<(i32, Cell)> = None;
+        let known_cells = info.cells(FROM_UNKNOWN_M).ceil().min(MOST_KNOWN_CELLS) as i32;
+        let mut best: Option<(Quality, Cell)> = None;
         let mut enough_cells = f64::INFINITY;
         let mut next = 0;
         while let Some(&(cell, slot)) = self.queue.get(next) {
             next += 1;
             let away_cells = (cell.distance_squared(center) as f64).sqrt();
             if away_cells <= enough_cells && field.reaches(cell) && !(search.refused)(info.center(cell)) {
-                let quality = quality(costmap, cell);
-                if quality >= 0 && best.is_none() {
+                let quality = Quality::of(costmap, cell, known_cells);
+                if quality.is_some() && best.is_none() {
                     enough_cells = away_cells + info.cells(DETOUR_M);
                 }
-                if quality >= 0 && best.is_none_or(|(highest, _)| quality > highest) {
+                if let Some(quality) = quality
+                    && best.is_none_or(|(highest, _)| quality > highest)
+                {
                     best = Some((quality, cell));
                 }
-                if quality >= ALL_KNOWN {
+                if quality == Some(Quality::best(known_cells)) {
                     break;
                 }
             }
@@ -159,7 +185,7 @@ const MAX_REACH_CELLS: f64 = 1000.0;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::{Inflation, OccupancyGrid, Thresholds};
+    use crate::grid::{GridInfo, INSCRIBED_COST, Inflation, OccupancyGrid, Thresholds};
     use std::sync::Arc;
 
     fn goal(drawing: &str, target: (f64, f64), radius_m: f64) -> Option<(f64, f64)> {
@@ -188,6 +214,31 @@ mod tests {
     #[test]
     fn stands_in_known_space_beside_the_unknown() {
         assert_eq!(goal("...??\n...??\n...??", (3.5, 1.5), 3.0), Some((2.5, 1.5)));
+    }
+
+    #[test]
+    fn keeps_from_what_is_unknown_and_first_from_what_is_not_free() {
+        let info = GridInfo::new(12, 5, 0.1, Pose::default()).unwrap();
+        let place = |free: u8, rim: u8| {
+            let costs = (0..60).map(|i| {
+                if i % 12 >= 8 {
+                    UNKNOWN_COST
+                } else if i % 12 <= 2 {
+                    rim
+                } else {
+                    free
+                }
+            });
+            let costmap = Arc::new(Costmap::from_costs(info, costs.collect()).unwrap());
+            let robot = Pose::new(0.35, 0.25, 0.0);
+            let field = PathField::new(Arc::clone(&costmap), &robot).unwrap();
+            let search = StandingGoal { radius_m: 1.0, heading: GoalHeading::TowardFrontier, refused: &|_| false };
+            StandingSearch::default().goal(&field, &robot, Point::new(0.85, 0.25), &search)
+        };
+        let x = |pose: Option<Pose>| pose.map(|pose| info.cell_at(pose.position()).x);
+        assert_eq!(x(place(10, 10)), Some(5), "two known cells all round: the grid is five high");
+        assert_eq!(x(place(10, INSCRIBED_COST)), Some(5), "two cells from the rim and from the unknown");
+        assert!(x(place(NARROW_COST, 10)).is_some_and(|x| x <= 2), "no place where it cannot turn");
     }
 
     #[test]
