@@ -70,8 +70,9 @@ pub struct Blacklist {
     visits: Vec<Visit>,
 }
 
-/// Places to stand within this distance are the same, metres.
-const SAME_PLACE_M: f64 = 0.25;
+/// Places to stand within this distance are the same, and one nearer to a frontier by more is
+/// worth another visit, metres.
+pub const SAME_PLACE_M: f64 = 0.25;
 
 impl Blacklist {
     /// An empty list.

@@ -4,7 +4,7 @@
 use super::assess::{Assessed, Surroundings, rank};
 use super::audit::Audit;
 use super::behind::unknown_behind_m2;
-use super::blacklist::Blacklist;
+use super::blacklist::{Blacklist, SAME_PLACE_M};
 use super::decided::{Audited, Choice, Decided, count, explain};
 use super::record::{CandidateStatus, DecisionRecord, SeenFrontier};
 use super::settings::ExplorerSettings;
@@ -228,7 +228,7 @@ impl Lookout {
             let standing = &mut self.standing;
             let mut could_see = |a: &&Assessed| {
                 // Where the robot has been, it need not come again: only nearer.
-                let radius_m = a.spent_m.map_or(radius_m, |spent_m| spent_m - CLOSER_M);
+                let radius_m = a.spent_m.map_or(radius_m, |spent_m| spent_m - SAME_PLACE_M);
                 let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
                 radius_m > 0.0
                     && widest.as_ref().is_some_and(|field| standing.goal(field, robot, a.target, &search).is_some())
@@ -296,8 +296,6 @@ impl Lookout {
     }
 }
 
-/// A place nearer by this is worth another visit, metres.
-const CLOSER_M: f64 = 0.25;
 /// A place smaller than this is a pocket and not the robot's world, square metres.
 const POCKET_M2: f64 = 1.0;
 

@@ -51,7 +51,8 @@ pub struct Explorer {
     pose_lost_since_s: Option<f64>,
     navigation_lost_since_s: Option<f64>,
     map_lost_since_s: Option<f64>,
-    /// Goals that were reached, until a newer map shows what became of their frontiers.
+    /// Targets whose goals were reached, and the places where the robot stood for them, until a
+    /// newer map shows what became of their frontiers.
     arrivals: Vec<(Point, Point)>,
     recoveries_in_a_row: u32,
     left_behind: LeftBehind,

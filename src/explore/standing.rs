@@ -97,9 +97,10 @@ const ALWAYS: u32 = u32::MAX;
 impl StandingSearch {
     /// The place nearest to `target` where the robot can stand and to which it can get,
     /// found by a flood that no obstacle lets through: never a place on the other side of
-    /// a wall. A place that keeps two cells from what the robot's centre cannot be in, and
-    /// from what is unknown, is taken rather than one that does not, where it is little farther off: planners that
-    /// compute with other roundings, or on a map of a second later, refuse the rim. Where
+    /// a wall. A place that keeps two cells from what the robot's centre cannot be in, and a
+    /// quarter of a metre from what is unknown, is taken rather than one that does not, where
+    /// it is little farther off: planners that compute with other roundings, or on a map of a
+    /// second later, refuse the rim. Where
     /// the robot can stand and cannot turn there is no place to stand.
     /// `refused` are places that have failed. `None` when there is none within `radius_m`.
     pub fn goal(&mut self, field: &PathField, robot: &Pose, target: Point, search: &StandingGoal<'_>) -> Option<Pose> {

@@ -3,7 +3,7 @@
 
 use super::controls::Controls;
 use super::outputs::Outputs;
-use crate::explore::{Counts, Decision, End, Explorer, Phase, TimeSpent, Watcher};
+use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
 use crate::grid::Thresholds;
 use crate::robot::Observation;
@@ -32,7 +32,6 @@ pub struct NodeWatcher<'a> {
     frame: String,
     message: String,
     region_shown: bool,
-    time_spent: TimeSpent,
     last_goal: Option<Pose>,
     /// Goals that were really sent.
     goals_sent: usize,
@@ -56,7 +55,6 @@ impl<'a> NodeWatcher<'a> {
             frame: "map".to_owned(),
             message: "waiting for the first map".to_owned(),
             region_shown: false,
-            time_spent: TimeSpent::default(),
             last_goal: None,
             goals_sent: 0,
         }
@@ -65,15 +63,15 @@ impl<'a> NodeWatcher<'a> {
     /// Tells the end, and returns the last status.
     pub fn finish(&mut self, robot: &RosRobot, explorer: &Explorer, end: &End) -> ExplorationStatus {
         self.goals_sent = robot.goals_sent();
-        self.time_spent = *explorer.time_spent();
         end.message.clone_into(&mut self.message);
-        let last = self.status(Phase::Ended, explorer.counts(), Some(end));
+        let last = self.status(Phase::Ended, explorer, Some(end));
         self.outputs.set_status(last.clone());
         self.outputs.tell_status();
         last
     }
 
-    fn status(&self, phase: Phase, counts: &Counts, end: Option<&End>) -> ExplorationStatus {
+    fn status(&self, phase: Phase, explorer: &Explorer, end: Option<&End>) -> ExplorationStatus {
+        let counts = explorer.counts();
         status(&StatusInput {
             stamp_s: self.node.now_s(),
             frame: &self.frame,
@@ -89,7 +87,7 @@ impl<'a> NodeWatcher<'a> {
             frontiers: self.frontiers,
             // The explorer counts what it chose, also where nobody was there to drive.
             counts: &Counts { goals_sent: counts.goals_sent.min(self.goals_sent), ..*counts },
-            time_spent: &self.time_spent,
+            time_spent: explorer.time_spent(),
             map_age_s: f64::NAN,
         })
     }
@@ -151,8 +149,6 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         self.count_way(observation);
         self.count_area(robot);
         self.goals_sent = robot.goals_sent();
-        let counts = explorer.counts();
-        self.time_spent = *explorer.time_spent();
         if let Some(notice) = &decision.notice {
             self.node.log().warn(notice);
         }
@@ -172,7 +168,7 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         if let Some(path) = robot.path() {
             self.outputs.show_path(&path, &self.frame);
         }
-        let new = self.status(decision.phase, counts, decision.end.as_ref());
+        let new = self.status(decision.phase, explorer, decision.end.as_ref());
         self.outputs.set_status(new);
     }
 
