@@ -4,9 +4,8 @@
 //! What a map shows is what the lidar has seen of the world, published once in a while.
 //! The map frame is the world's: with a perfect SLAM ([`super::SlamKind`]) in truth, with
 //! one that matches scans as far as its estimate goes, and then the pose in the map is what
-//! the robot believes. The body moves by the true one. Coverage counts the cells that the
-//! map shows as known where they lie in the map's frame, so that an error of the frame
-//! hides or adds no more than a rim as wide as the error.
+//! the robot believes. The body moves by the true one. Coverage counts what the scans in the
+//! newest map have truly seen, wherever an erring SLAM has drawn it.
 
 use super::schedule::{Micros, Periodic, micros, seconds};
 use super::slam::{Slam, Sweep};
@@ -45,7 +44,7 @@ pub struct SimStats {
     pub turned_rad: f64,
     /// Contacts with solid cells.
     pub collisions: usize,
-    /// Share of the target area known in the newest map, 0 to 1.
+    /// Share of the target area that the scans in the newest map have seen, 0 to 1.
     pub coverage: f64,
     /// Area of all cells that the mapper has seen, square metres.
     pub known_area_m2: f64,
@@ -287,7 +286,7 @@ impl Plant {
                 let costmap = costmap.reinflate(old, &map.grid, &self.config.thresholds, &self.inflation);
                 let (stamp_s, grid) = (map.stamp_s, map.grid);
                 self.published = Published { stamp_s, version, grid, costmap: Arc::new(costmap) };
-                self.coverage.update(&self.published.grid);
+                self.coverage.update(&map.seen);
             }
         }
         Ok(happened)

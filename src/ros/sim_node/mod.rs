@@ -96,7 +96,7 @@ pub fn simulate_with(node: &Node) -> Result<(), SimNodeError> {
     simulator.run()?;
     let stats = simulator.plant.stats();
     node.log().info(format_args!(
-        "{:.0} s simulated, {:.1} m driven, {} collisions, {:.2} % of the reachable area in the map",
+        "{:.0} s simulated, {:.1} m driven, {} collisions, {:.2} % of the reachable area seen",
         stats.sim_time_s,
         stats.distance_m,
         stats.collisions,

@@ -20,7 +20,7 @@
 use super::super::schedule::{Micros, micros, seconds};
 use super::super::{Mapper, MapperConfig, MapperError, SimConfig};
 use super::{NewMap, SlamConfig, Sweep};
-use crate::geometry::{Pose, normalize_angle, shortest_angle};
+use crate::geometry::{Point, Pose, normalize_angle, shortest_angle};
 use crate::grid::OccupancyGrid;
 use crate::matching::{LikelihoodField, Prior, match_scan, thinned_hits};
 use rand_distr::{Distribution, StandardNormal, Uniform};
@@ -46,6 +46,8 @@ pub struct MatchedSlam {
     config: SlamConfig,
     mount: Pose,
     mapper: Mapper,
+    /// The same scans, put where they were truly taken.
+    seen: Mapper,
     /// Where the last processed scan was by odometry and in the map.
     last: (Pose, Pose),
     mapped: Micros,
@@ -70,6 +72,7 @@ impl MatchedSlam {
     pub(super) fn begin(
         config: &SimConfig,
         start: &Pose,
+        anchor: Point,
         mount: Pose,
         first: &Sweep,
     ) -> Result<(Self, Arc<OccupancyGrid>), MapperError> {
@@ -83,12 +86,15 @@ impl MatchedSlam {
         let mut mapper = Mapper::new(counting, start.position(), start.position())?;
         mapper.integrate(&start.compose(&mount), &first.scan)?;
         let grid = mapper.publish()?;
+        let mut seen = Mapper::new(counting, start.position(), anchor)?;
+        seen.integrate(&first.lidar_in_world, &first.scan)?;
         let mut random = Pcg32::new(config.seed, STREAM);
         let lateness = draw(config.slam.lateness_min_s, config.slam.lateness_max_s, &mut random);
         let this = Self {
             config: config.slam,
             mount,
             mapper,
+            seen,
             last: (first.base_in_odom, *start),
             mapped: 0,
             map_from_odom: start.compose(&first.base_in_odom.inverse()),
@@ -121,11 +127,12 @@ impl MatchedSlam {
         let is_believed = points.len() >= FEWEST_POINTS && found.likelihood >= self.config.min_likelihood;
         let pose = self.err(if is_believed { found.pose } else { prior.pose });
         self.mapper.integrate(&pose.compose(&self.mount), &sweep.scan)?;
+        self.seen.integrate(&sweep.lidar_in_world, &sweep.scan)?;
         self.last = (sweep.base_in_odom, pose);
         let due = now + self.lateness;
         if now - self.mapped >= micros(self.config.map_interval_s) {
             self.mapped = now;
-            let map = NewMap { grid: self.mapper.publish()?, stamp_s: seconds(now) };
+            let map = NewMap { grid: self.mapper.publish()?, stamp_s: seconds(now), seen: self.seen.publish()? };
             let drawn = draw(self.config.map_delay_min_s, self.config.map_delay_max_s, &mut self.random);
             push(&mut self.maps, due + drawn, map);
         }

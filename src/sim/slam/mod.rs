@@ -30,6 +30,9 @@ pub(super) struct Sweep {
 pub(super) struct NewMap {
     pub grid: Arc<OccupancyGrid>,
     pub stamp_s: f64,
+    /// What the scans in it show when they are put where they were truly taken, in the world's
+    /// frame: coverage is counted here. With a perfect SLAM this is the map itself.
+    pub seen: Arc<OccupancyGrid>,
 }
 
 /// One of the two kinds.
@@ -41,7 +44,8 @@ pub(super) enum Slam {
 
 impl Slam {
     /// With the first sweep taken in, at time 0 and the robot at `start`; also gives the
-    /// first map. `anchor` is a cell corner of the world.
+    /// first map, of which what is seen is the map itself: nobody has erred yet. `anchor` is a
+    /// cell corner of the world.
     pub(super) fn begin(
         config: &SimConfig,
         start: &Pose,
@@ -55,7 +59,7 @@ impl Slam {
                 (Self::Perfect(Box::new(slam)), grid)
             }
             SlamKind::Matched => {
-                let (slam, grid) = MatchedSlam::begin(config, start, mount, first)?;
+                let (slam, grid) = MatchedSlam::begin(config, start, anchor, mount, first)?;
                 (Self::Matched(Box::new(slam)), grid)
             }
         })

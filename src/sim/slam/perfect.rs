@@ -59,7 +59,8 @@ impl PerfectSlam {
         if !std::mem::replace(&mut self.is_mapped, true) {
             self.mapper.integrate(&newest.lidar_in_world, &newest.scan)?;
         }
-        Ok(Some(NewMap { grid: self.mapper.publish()?, stamp_s: seconds(now) }))
+        let grid = self.mapper.publish()?;
+        Ok(Some(NewMap { seen: Arc::clone(&grid), grid, stamp_s: seconds(now) }))
     }
 
     pub(super) fn known_area_m2(&self) -> f64 {

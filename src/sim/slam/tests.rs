@@ -171,3 +171,23 @@ fn the_same_seed_makes_the_same_errors() {
     };
     assert!(run(6) == run(6) && run(6) != run(7));
 }
+
+#[test]
+fn coverage_counts_what_was_seen_wherever_the_map_shows_it() {
+    let slam = SlamConfig {
+        kind: SlamKind::Matched,
+        // No match is believed: errors add up.
+        min_likelihood: 1.0,
+        match_error_rad: 0.1,
+        ..SlamConfig::default()
+    };
+    let config = SimConfig { seed: 3, slam, ..SimConfig::default() };
+    let mut erring = Plant::new(hall(), &burger(), config, Pose::new(1.6, -1.0, 0.3)).unwrap();
+    round(&mut erring, |_, _| {});
+    let mut perfect = plant(SlamKind::Perfect, 3);
+    round(&mut perfect, |_, _| {});
+    let (seen, by_rights) = (erring.stats().coverage, perfect.stats().coverage);
+    assert!((seen - by_rights).abs() < 0.01, "{seen} seen, {by_rights} without errors");
+    let shown = erring.target().coverage_of(erring.map());
+    assert!((seen - shown).abs() > 0.01, "{seen} seen, {shown} where the map shows it");
+}
