@@ -227,8 +227,10 @@ impl Lookout {
             let radius_m = situation.settings.goal.search_radius_m;
             let standing = &mut self.standing;
             let mut could_see = |a: &&Assessed| {
-                // Where the robot has been, it need not come again: only nearer.
-                let radius_m = a.spent_m.map_or(radius_m, |spent_m| spent_m - SAME_PLACE_M);
+                // What the robot has looked at from as near as it gets is left only where its body
+                // would get through: a nook of which a step nearer shows a little more is not.
+                let nearer_m = |spent_m: f64| (spent_m - SAME_PLACE_M).min(THROUGH_M);
+                let radius_m = a.spent_m.map_or(radius_m, nearer_m);
                 let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
                 radius_m > 0.0
                     && widest.as_ref().is_some_and(|field| standing.goal(field, robot, a.target, &search).is_some())
@@ -296,6 +298,8 @@ impl Lookout {
     }
 }
 
+/// A body that can be as near to a frontier as this gets through it, metres.
+const THROUGH_M: f64 = 0.15;
 /// A place smaller than this is a pocket and not the robot's world, square metres.
 const POCKET_M2: f64 = 1.0;
 

@@ -53,6 +53,23 @@ impl Decided {
         self.record.candidates.iter().any(|c| is_open(c.status) && near(c.target))
     }
 
+    /// The target and the place of a frontier near a point that is best seen from where the
+    /// robot stands.
+    pub fn seen_from_here(&self, target: Point, radius_m: f64) -> Option<(Point, Point)> {
+        let mut here = self.record.candidates.iter().filter(|c| c.status == CandidateStatus::AlreadyThere);
+        here.find_map(|c| {
+            let seen = Point::new(c.target.x, c.target.y);
+            (nalgebra::distance(&target, &seen) <= radius_m).then_some((seen, c.goal?.position()))
+        })
+    }
+
+    /// Whether there is a frontier near a point to which no way leads.
+    pub fn is_barred_near(&self, target: Point, radius_m: f64) -> bool {
+        let is_barred = |status| matches!(status, CandidateStatus::NoPath | CandidateStatus::Unreachable);
+        let near = |at: Position| nalgebra::distance(&target, &Point::new(at.x, at.y)) <= radius_m;
+        self.record.candidates.iter().any(|c| is_barred(c.status) && near(c.target))
+    }
+
     /// Why a run ends for which nothing is left to choose. `is_wedged`: the robot has not
     /// got away from where it is for long.
     pub fn why_nothing_is_left(&self, is_wedged: bool) -> (EndReason, String) {
@@ -86,7 +103,7 @@ impl Decided {
         } else {
             let message = format!(
                 "no frontier is left that the robot could get to and see more of ({} seen in vain, {} behind openings \
-                 narrower than the robot: {behind})",
+                 too narrow for the robot or hidden from as near as it gets: {behind})",
                 left.exhausted,
                 left.too_narrow + left.unreachable
             );

@@ -23,9 +23,10 @@ use super::sight::Sights;
 use super::state::{AfterTurn, Decision, State, has_ended};
 use super::traits::RobotTraits;
 use super::trouble::Trouble;
-use crate::geometry::{Path, Point, Polygon, Pose};
+use crate::geometry::{Path, Polygon, Pose};
 use crate::planning::{Driven, GlobalPlanner};
 use crate::robot::{CommandId, MapSnapshot, Observation};
+use follow::Arrival;
 use std::f64::consts::TAU;
 
 /// The longest that a turn may take, seconds; then the run goes on without it.
@@ -51,9 +52,8 @@ pub struct Explorer {
     pose_lost_since_s: Option<f64>,
     navigation_lost_since_s: Option<f64>,
     map_lost_since_s: Option<f64>,
-    /// Targets whose goals were reached, and the places where the robot stood for them, until a
-    /// newer map shows what became of their frontiers.
-    arrivals: Vec<(Point, Point)>,
+    /// Goals that were reached, until a newer map shows what became of their frontiers.
+    arrivals: Vec<Arrival>,
     recoveries_in_a_row: u32,
     left_behind: LeftBehind,
     notice: Option<String>,

@@ -3,6 +3,7 @@
 use super::super::record::DecisionRecord;
 use super::super::state::State;
 use super::Explorer;
+use super::follow::Arrival;
 use crate::geometry::Pose;
 use crate::grid::{INSCRIBED_COST, LETHAL_COST};
 use crate::robot::{MapSnapshot, NavigationState, Observation};
@@ -23,13 +24,13 @@ impl Explorer {
         let ours = observation.navigation.command == drive.id;
         match &observation.navigation.state {
             NavigationState::Succeeded if ours => {
-                let (target, is_stage) = (drive.target, drive.is_stage);
+                let (target, place, is_stage) = (drive.target, drive.goal.position(), drive.is_stage);
                 self.counts.goals_reached += 1;
                 self.recoveries_in_a_row = 0;
                 self.trouble.is_over();
                 self.state = State::Ready;
                 if !is_stage {
-                    self.arrivals.push((target, pose.position()));
+                    self.arrivals.push(Arrival { target, place, decided_at: None });
                     if self.settings.turns.at_goal {
                         self.look_round(now_s);
                     }

@@ -14,6 +14,17 @@ const NUDGE_RAD: f64 = 0.7;
 /// So many of them are made before the map has to come by itself.
 const NUDGES: u32 = 3;
 
+/// A goal that was reached.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival {
+    /// What was to be seen from there.
+    pub target: Point,
+    /// The goal; the robot may have stopped a little short of it, and would again.
+    pub place: Point,
+    /// The version of the map that was decided on first after that.
+    pub decided_at: Option<u64>,
+}
+
 impl Explorer {
     /// Goes on as if the robot had been sent to this goal by the explorer itself: a
     /// recording went there, and what is decided next shall be decided from there. A run
@@ -73,13 +84,16 @@ impl Explorer {
     }
 
     /// Frontiers that are still there, on a map of after the robot was at their goals, have
-    /// been visited in vain once more: whatever cell now stands for them.
+    /// been visited in vain once more: whatever cell now stands for them. A robot that drives
+    /// on at once never sees a map of where it stands: the second one that comes after that
+    /// will do, as the first may have been under way.
     fn count_visits(&mut self, decided: &Decided) {
-        if !self.watch.is_fresh() {
-            return;
-        }
         let radius_m = self.settings.taboo.radius_m;
-        for (target, place) in std::mem::take(&mut self.arrivals) {
+        let version = self.watch.map().map_or(0, |map| map.version);
+        let is_fresh = self.watch.is_fresh();
+        let shows = |arrival: &mut Arrival| is_fresh || version >= *arrival.decided_at.get_or_insert(version) + 2;
+        let shown: Vec<Arrival> = self.arrivals.extract_if(.., shows).collect();
+        for Arrival { target, place, .. } in shown {
             let is_there = |point: Point| nalgebra::distance(&point, &target) <= radius_m;
             let mut targets = decided.record.candidates.iter().map(|c| Point::new(c.target.x, c.target.y));
             let mut cells = self.lookout.frontiers().iter().flat_map(|frontier| &frontier.cells);
@@ -116,6 +130,18 @@ impl Explorer {
                     record.goal = Some(drive.goal);
                     "the goal under way is kept".clone_into(&mut record.why);
                     return;
+                }
+                if let Some((target, place)) = decided.seen_from_here(drive.target, goal.commit_radius_m) {
+                    // There but for the last steps, or where it is seen from as well: a visit.
+                    self.arrivals.push(Arrival { target, place, decided_at: None });
+                } else if decided.is_barred_near(drive.target, goal.commit_radius_m) {
+                    // The way there has closed as the robot came. From elsewhere it may seem open
+                    // again: without a count the robot would drive to and fro for ever.
+                    self.blacklist.record_failure(drive.target, drive.goal.position(), pose.position());
+                    self.notice = Some(format!(
+                        "the goal at ({:.2}, {:.2}) m is given up: from here no way leads there",
+                        drive.goal.x, drive.goal.y
+                    ));
                 }
             }
             self.counts.goals_sent += 1;

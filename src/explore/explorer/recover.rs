@@ -2,7 +2,7 @@
 //! when that is over.
 
 use super::super::decided::Decided;
-use super::super::record::{DecisionRecord, End, EndReason};
+use super::super::record::{CandidateStatus, DecisionRecord, End, EndReason};
 use super::super::state::{AfterTurn, State};
 use super::Explorer;
 use crate::geometry::{Point, Pose};
@@ -74,6 +74,14 @@ impl Explorer {
         let may_help_to_wait = left.failed > 0 && !self.settings.taboo.is_final;
         let in_time = self.trouble.lasts_s(now_s) < self.settings.patience.failing_s;
         let rest_s = self.trouble.next_round_s(&pose, now_s);
+        // A planner that knows how the robot turns may find no way from here to anywhere.
+        let no_way_out = decided.record.candidates.iter().any(|c| c.status == CandidateStatus::NoPath);
+        if no_way_out && self.recoveries_in_a_row > 0 && self.trouble.may_back_off() {
+            self.blacklist.forgive_failures();
+            "frontiers remain and the planner finds no way out of here: back off".clone_into(&mut record.why);
+            self.state = self.back_off(pose, now_s);
+            return;
+        }
         if self.recoveries_in_a_row < self.settings.turns.recoveries {
             self.recoveries_in_a_row += 1;
             self.counts.recoveries += 1;
