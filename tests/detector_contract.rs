@@ -270,6 +270,22 @@ fn walls_block() {
 }
 
 #[test]
+fn beside_what_is_seen_and_not_settled_there_is_no_frontier() {
+    let thresholds = Thresholds { free_max: 25, occupied_min: 65 };
+    let params = DetectorParams { thresholds, ..DetectorParams::default() };
+    for &kind in DetectorKind::ALL {
+        // A door of greys, as Cartographer has them where it has looked once.
+        let mut grid = room(Pose::default(), FREE);
+        fill(&mut grid, 50..51, 32..48, 45);
+        let found = detect(kind.name(), &mut *kind.build(&params), &grid, IN_THE_ROOM).unwrap();
+        assert_eq!(found, [], "{}", kind.name());
+        fill(&mut grid, 50..51, 36..44, FREE);
+        let found = detect(kind.name(), &mut *kind.build(&params), &grid, IN_THE_ROOM).unwrap();
+        assert_eq!(found.len(), 1, "{}: what is free of the door is one", kind.name());
+    }
+}
+
+#[test]
 fn the_same_question_has_the_same_answer() {
     for_each(|name, build| {
         // Patches of all kinds, always the same ones.

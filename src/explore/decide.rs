@@ -1,6 +1,8 @@
 //! One decision: detect, assess, rank, and take the first to which there is a way; and
 //! where there is none, look once more with other eyes.
 
+mod beside;
+
 use super::assess::{Assessed, Surroundings, rank};
 use super::audit::Audit;
 use super::behind::unknown_behind_m2;
@@ -34,6 +36,8 @@ pub struct Situation<'a> {
     pub robot: Pose,
     /// It has arrived, and the map may be of before.
     pub awaits_map: bool,
+    /// The frontier beside the way that it is on its way to, if it is.
+    pub beside: Option<Point>,
 }
 
 /// The algorithms that a decision wires together.
@@ -157,6 +161,9 @@ impl Lookout {
             frontiers = raw;
             (weighed, audit) = (second, Some(audited));
         }
+        if let Some(field) = &field {
+            self.look_beside(&mut weighed, situation, map, field)?;
+        }
         let Weighed { assessed, choice } = weighed;
         let mut left_behind = count(&assessed);
         let wants_area = choice.is_none() || situation.settings.finish.good_enough_share.is_some();
@@ -191,7 +198,22 @@ impl Lookout {
         map: &MapSnapshot,
         field: Option<&PathField>,
     ) -> Weighed {
-        let surroundings = Surroundings {
+        let surroundings = self.surroundings(situation, map, field);
+        let standing = &mut self.standing;
+        let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
+        let eligible = rank(&mut assessed, &mut *self.selector, situation.robot);
+        let choice =
+            field.and_then(|field| self.first_with_a_way(&mut assessed[..eligible], field.costmap(), &situation.robot));
+        Weighed { assessed, choice }
+    }
+
+    fn surroundings<'a>(
+        &self,
+        situation: &Situation<'a>,
+        map: &'a MapSnapshot,
+        field: Option<&'a PathField>,
+    ) -> Surroundings<'a> {
+        Surroundings {
             settings: situation.settings,
             grid: &map.grid,
             needs: self.selector.needs(),
@@ -201,13 +223,7 @@ impl Lookout {
             map_s: map.stamp_s,
             awaits_map: situation.awaits_map,
             robot: situation.robot,
-        };
-        let standing = &mut self.standing;
-        let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| surroundings.assess(f, standing)).collect();
-        let eligible = rank(&mut assessed, &mut *self.selector, situation.robot);
-        let choice =
-            field.and_then(|field| self.first_with_a_way(&mut assessed[..eligible], field.costmap(), &situation.robot));
-        Weighed { assessed, choice }
+        }
     }
 
     /// What bars the way to the frontiers that are left.
@@ -308,7 +324,7 @@ impl Assessed {
     fn choose(&mut self, goal: Pose, path: &Path, is_stage: bool) -> Choice {
         self.record.path_m = Some(path.length_m());
         self.record.status = CandidateStatus::Chosen;
-        Choice { goal, target: self.target, is_stage }
+        Choice { goal, target: self.target, is_stage, is_beside: false }
     }
 }
 

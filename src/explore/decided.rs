@@ -14,6 +14,8 @@ pub struct Choice {
     pub target: Point,
     /// Whether the goal is only a place on the way there.
     pub is_stage: bool,
+    /// Whether it lies beside the way to a better one and comes first for that.
+    pub is_beside: bool,
 }
 
 /// What one decision found.
@@ -135,6 +137,10 @@ pub fn count(assessed: &[Assessed]) -> LeftBehind {
 pub fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left: &LeftBehind) -> String {
     let skipped = assessed.iter().filter(|a| a.record.status == CandidateStatus::NoPath).count();
     match choice {
+        Some(choice) if choice.is_beside => format!(
+            "at ({:.2}, {:.2}) m, beside the way to the best of {} frontiers by {strategy}",
+            choice.target.x, choice.target.y, left.frontiers
+        ),
         Some(choice) => {
             let passed_over = if skipped > 0 { format!(", {skipped} before it had no path") } else { String::new() };
             let part = if choice.is_stage { ": the planner gave up, part of the way" } else { "" };

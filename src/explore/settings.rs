@@ -63,6 +63,10 @@ pub struct GoalSettings {
     /// this near to the one it was chosen for, metres: robots that follow every change
     /// of mind run to and fro between rooms. 0 never keeps it.
     pub commit_radius_m: f64,
+    /// A frontier to which the way is at most so long is seen before the robot leaves for a
+    /// goal at least twice as far, where the way there leads away from it, metres. Frontiers
+    /// that the preset drops for their size count as well. Never when absent.
+    pub beside_way_m: Option<f64>,
 }
 
 impl Default for GoalSettings {
@@ -74,6 +78,7 @@ impl Default for GoalSettings {
             already_there_m: 0.25,
             reconsider_period_s: None,
             commit_radius_m: 1.0,
+            beside_way_m: None,
         }
     }
 }
@@ -214,6 +219,7 @@ impl ExplorerSettings {
         for (key, value) in [
             ("goal.search_radius_m", goal.search_radius_m),
             ("goal.reconsider_period_s", goal.reconsider_period_s.unwrap_or(1.0)),
+            ("goal.beside_way_m", goal.beside_way_m.unwrap_or(1.0)),
             ("patience.progress_timeout_s", patience.progress_timeout_s),
             ("patience.progress_distance_m", patience.progress_distance_m),
             ("patience.goal_timeout_s", patience.goal_timeout_s),

@@ -56,6 +56,8 @@ pub struct Drive {
     pub target: Point,
     /// Whether the goal is only a place on the way there.
     pub is_stage: bool,
+    /// Whether it is a frontier beside the way to another one.
+    pub is_beside: bool,
     /// Since when, seconds.
     pub since_s: f64,
     /// Whether it gets anywhere.
@@ -64,6 +66,8 @@ pub struct Drive {
     pub considered_s: f64,
     /// Its version.
     pub considered_version: u64,
+    /// The version of the map on which nothing was left to choose, if the last one was such.
+    pub done_at: Option<u64>,
 }
 
 /// Where the explorer is in its round.

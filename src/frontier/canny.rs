@@ -118,12 +118,11 @@ impl FrontierDetector for Canny {
 /// know blocks nothing, and neither does what lies outside it.
 fn draw(input: &DetectionInput<'_>, thresholds: &Thresholds, blocked_cost_min: u8) -> Vec<u8> {
     let info = input.grid.info();
-    let Thresholds { free_max, occupied_min } = *thresholds;
+    let free_max = thresholds.free_max;
     let is_blocked = |cost: u8| (cost >= blocked_cost_min) & (cost != UNKNOWN_COST);
     let grey = |(&value, &cost): (&i8, &u8)| {
-        let is_free = (value >= 0) & (value <= free_max);
-        let shade = if is_free { WHITE } else { GREY };
-        if (value >= occupied_min) | is_blocked(cost) { BLACK } else { shade }
+        let shade = if value >= 0 { WHITE } else { GREY };
+        if (value > free_max) | is_blocked(cost) { BLACK } else { shade }
     };
     let costs: Cow<'_, [u8]> = match input.costmap {
         Some(costmap) if costmap.info() == info => costmap.costs().into(),

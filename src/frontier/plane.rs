@@ -44,7 +44,7 @@ impl Plane {
         let table: [u8; 256] = std::array::from_fn(|value| match thresholds.classify(value as u8 as i8) {
             CellState::Unknown => UNKNOWN,
             CellState::Free => OPEN,
-            CellState::Occupied => OCCUPIED,
+            CellState::Occupied | CellState::Unsettled => OCCUPIED,
         });
         let stride = info.width() + 2;
         let mut states = vec![OUTSIDE; stride * (info.height() + 2)];

@@ -16,7 +16,9 @@ fn check(planes: &BitPlanes, grid: &OccupancyGrid, thresholds: &Thresholds) {
     for cell in (0..info.len()).map(|i| info.cell(i)) {
         let state = grid.state(cell, thresholds);
         let found = [planes.free(), planes.unknown(), &planes.occupied()].map(|plane| plane.contains(cell));
-        let expected = [CellState::Free, CellState::Unknown, CellState::Occupied].map(|kind| kind == state);
+        // What is not settled is in the robot's way like an obstacle.
+        let is_in_the_way = matches!(state, CellState::Occupied | CellState::Unsettled);
+        let expected = [state == CellState::Free, state == CellState::Unknown, is_in_the_way];
         assert_eq!(found, expected, "{cell:?} is {:?} in a grid {} wide", grid.get(cell), info.width());
     }
     let counts = planes.free().count() + planes.unknown().count() + planes.occupied().count();

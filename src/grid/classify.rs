@@ -45,8 +45,7 @@ impl Classifier {
     fn classify_words(&self, cells: &[[i8; WORD_CELLS]], free: &mut [u64], unknown: &mut [u64]) {
         #[cfg(target_arch = "x86_64")]
         {
-            let Thresholds { free_max, occupied_min } = self.thresholds;
-            if super::simd::pack(cells, free, unknown, free_max, occupied_min) {
+            if super::simd::pack(cells, free, unknown, self.thresholds.free_max) {
                 return;
             }
         }
@@ -64,17 +63,12 @@ const HIGH_BITS: u64 = LOW_BITS << 7;
 struct Portable {
     /// Added to seven bits of each byte, carries into the eighth above `free_max`.
     beyond_free: u64,
-    /// The same from `occupied_min` on.
-    from_occupied: u64,
 }
 
 impl Portable {
     fn new(thresholds: &Thresholds) -> Self {
         let bytes = |value: u8| u64::from(value) * LOW_BITS;
-        Self {
-            beyond_free: bytes(127 - thresholds.free_max.max(0).cast_unsigned()),
-            from_occupied: bytes(128 - thresholds.occupied_min.max(1).cast_unsigned()),
-        }
+        Self { beyond_free: bytes(127 - thresholds.free_max.max(0).cast_unsigned()) }
     }
 
     fn classify_words(&self, cells: &[[i8; WORD_CELLS]], free: &mut [u64], unknown: &mut [u64]) {
@@ -88,17 +82,16 @@ impl Portable {
     /// halves then hold the even and the odd bytes of the transposed word.
     #[inline]
     fn pack(&self, cells: &[i8; WORD_CELLS]) -> (u64, u64) {
-        let (mut free, mut occupied) = ([0; 2], [0; 2]);
+        let (mut free, mut unknown) = ([0; 2], [0; 2]);
         for (i, pair) in cells.as_chunks::<16>().0.iter().enumerate() {
             for (half, eight) in pair.as_chunks::<8>().0.iter().enumerate() {
                 let values = u64::from_le_bytes(eight.map(i8::cast_unsigned));
                 let magnitudes = values & !HIGH_BITS;
                 free[half] |= (!(values | (magnitudes + self.beyond_free)) & HIGH_BITS) >> (7 - 2 * i);
-                occupied[half] |= ((magnitudes + self.from_occupied) & !values & HIGH_BITS) >> (7 - 2 * i);
+                unknown[half] |= (values & HIGH_BITS) >> (7 - 2 * i);
             }
         }
-        let (free, occupied) = (transposed(free[0] | free[1] << 1), transposed(occupied[0] | occupied[1] << 1));
-        (free, !(free | occupied))
+        (transposed(free[0] | free[1] << 1), transposed(unknown[0] | unknown[1] << 1))
     }
 }
 

@@ -124,6 +124,7 @@ impl OccupancyGrid {
                 CellState::Free => census.free += 1,
                 CellState::Occupied => census.occupied += 1,
                 CellState::Unknown => census.unknown += 1,
+                CellState::Unsettled => census.unsettled += 1,
             }
         }
         census
@@ -139,13 +140,15 @@ pub struct Census {
     pub occupied: usize,
     /// Unknown cells.
     pub unknown: usize,
+    /// Seen cells that are neither free nor occupied.
+    pub unsettled: usize,
 }
 
 impl Census {
-    /// Free and occupied cells together.
+    /// All cells that have been seen.
     #[must_use]
     pub const fn known(&self) -> usize {
-        self.free + self.occupied
+        self.free + self.occupied + self.unsettled
     }
 }
 

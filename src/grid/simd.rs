@@ -21,36 +21,32 @@ pub(super) fn is_available() -> bool {
 /// The free and the unknown cells of each word of 64, as [`super::Thresholds::classify`]
 /// has it. As many words as the shortest of the three slices has; `false`, and nothing
 /// done, on a processor without AVX2.
-pub(super) fn pack(cells: &[[i8; 64]], free: &mut [u64], unknown: &mut [u64], free_max: i8, occupied_min: i8) -> bool {
+pub(super) fn pack(cells: &[[i8; 64]], free: &mut [u64], unknown: &mut [u64], free_max: i8) -> bool {
     if !is_available() {
         return false;
     }
     // SAFETY: the processor has AVX2, as just asked, which is all that the function
     // needs beyond its arguments.
-    unsafe { pack_avx2(cells, free, unknown, free_max, occupied_min) };
+    unsafe { pack_avx2(cells, free, unknown, free_max) };
     true
 }
 
 #[target_feature(enable = "avx2")]
-fn pack_avx2(cells: &[[i8; 64]], free: &mut [u64], unknown: &mut [u64], free_max: i8, occupied_min: i8) {
+fn pack_avx2(cells: &[[i8; 64]], free: &mut [u64], unknown: &mut [u64], free_max: i8) {
     let free_max = _mm256_set1_epi8(free_max);
-    // At least 1 by `Thresholds::validate`, so that nothing wraps; saturating, a wrong
-    // threshold gives wrong cells and no more.
-    let below_occupied = _mm256_set1_epi8(occupied_min.saturating_sub(1));
     for ((cells, free), unknown) in cells.iter().zip(free).zip(unknown) {
-        let (mut not_free, mut occupied) = (0, 0);
+        let (mut not_free, mut negative) = (0, 0);
         for (half, shift) in cells.as_chunks::<32>().0.iter().zip([0, 32]) {
             // SAFETY: `half` is 32 readable bytes, and `loadu` asks for no alignment.
             let values = unsafe { _mm256_loadu_si256(half.as_ptr().cast::<__m256i>()) };
-            // The sign bit of a byte is set where it is negative or all ones: unknown
-            // by its value, or beyond `free_max`.
+            // The sign bit of a byte is set where it is negative, which is unknown, or all
+            // ones: beyond `free_max`.
             let beyond = _mm256_or_si256(values, _mm256_cmpgt_epi8(values, free_max));
-            let occupied_here = _mm256_cmpgt_epi8(values, below_occupied);
             not_free |= u64::from(_mm256_movemask_epi8(beyond).cast_unsigned()) << shift;
-            occupied |= u64::from(_mm256_movemask_epi8(occupied_here).cast_unsigned()) << shift;
+            negative |= u64::from(_mm256_movemask_epi8(values).cast_unsigned()) << shift;
         }
         *free = !not_free;
-        *unknown = not_free & !occupied;
+        *unknown = negative;
     }
 }
 

@@ -2,15 +2,19 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The three kinds of territory of Yamauchi 1997 and Topiwala 2018.
+/// The three kinds of territory of Yamauchi 1997 and Topiwala 2018, and a fourth that lies
+/// between the thresholds, where these leave room for it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CellState {
     /// Known and without an obstacle.
     Free,
     /// Known to hold an obstacle.
     Occupied,
-    /// Not seen, or not told apart yet.
+    /// Not seen.
     Unknown,
+    /// Seen, and neither free nor occupied: Cartographer's greys, and the rims of obstacles. The
+    /// robot keeps off; no frontier runs beside it, as there is nothing to discover.
+    Unsettled,
 }
 
 /// Thresholds that contradict each other or the range of occupancy values.
@@ -24,9 +28,9 @@ pub struct ThresholdError {
 }
 
 /// Where free ends and occupied begins on the scale -1, 0..100 of
-/// `nav_msgs/OccupancyGrid`. A known value in between is neither, and so unknown, as
-/// map_saver writes it. The defaults take every value below 65 as free: Cartographer
-/// publishes greys for what it has seen.
+/// `nav_msgs/OccupancyGrid`. A value in between has been seen and is neither. The defaults
+/// leave none in between and take every value below 65 as free: Cartographer publishes greys
+/// for what it has seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Thresholds {
@@ -63,8 +67,10 @@ impl Thresholds {
             CellState::Occupied
         } else if value >= 0 && value <= self.free_max {
             CellState::Free
-        } else {
+        } else if value < 0 {
             CellState::Unknown
+        } else {
+            CellState::Unsettled
         }
     }
 }
@@ -90,11 +96,12 @@ mod tests {
     }
 
     #[test]
-    fn between_the_thresholds_is_unknown() {
+    fn between_the_thresholds_is_seen_and_not_settled() {
         let t = Thresholds { free_max: 25, occupied_min: 65 };
         assert_eq!(t.classify(25), CellState::Free);
-        assert_eq!(t.classify(26), CellState::Unknown);
-        assert_eq!(t.classify(64), CellState::Unknown);
+        assert_eq!(t.classify(26), CellState::Unsettled);
+        assert_eq!(t.classify(64), CellState::Unsettled);
+        assert_eq!(t.classify(-1), CellState::Unknown);
     }
 
     #[test]

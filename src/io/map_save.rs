@@ -118,7 +118,7 @@ fn pixels(grid: &OccupancyGrid, thresholds: &Thresholds) -> Vec<u8> {
     let grey = |&value: &i8| match thresholds.classify(value) {
         CellState::Free => 254,
         CellState::Occupied => 0,
-        CellState::Unknown => 205,
+        CellState::Unknown | CellState::Unsettled => 205,
     };
     grid.data().chunks_exact(grid.info().width()).rev().flatten().map(grey).collect()
 }

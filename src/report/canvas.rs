@@ -17,7 +17,7 @@ pub struct Canvas {
 /// The ink for each occupancy value, by the value as `u8`.
 fn inks(thresholds: &Thresholds) -> [u8; 256] {
     std::array::from_fn(|byte| match thresholds.classify(byte as u8 as i8) {
-        CellState::Unknown => Ink::Unknown.index(),
+        CellState::Unknown | CellState::Unsettled => Ink::Unknown.index(),
         CellState::Free => Ink::Free.index(),
         CellState::Occupied => Ink::Occupied.index(),
     })

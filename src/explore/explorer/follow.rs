@@ -43,10 +43,12 @@ impl Explorer {
             goal,
             target: target.unwrap_or_else(|| goal.position()),
             is_stage: false,
+            is_beside: false,
             since_s: observation.stamp_s,
             progress: ProgressMonitor::new(pose, observation.stamp_s),
             considered_s: map.stamp_s,
             considered_version: map.version,
+            done_at: None,
         });
     }
 
@@ -67,6 +69,10 @@ impl Explorer {
             driven: &self.driven,
             robot: pose,
             awaits_map: !self.watch.is_fresh() && !matches!(self.state, State::Driving(_)),
+            beside: match &self.state {
+                State::Driving(drive) => drive.is_beside.then_some(drive.target),
+                _ => None,
+            },
         };
         let decided = match self.lookout.decide(&situation, observation, map) {
             Ok(decided) => decided,
@@ -124,9 +130,11 @@ impl Explorer {
             {
                 let goal = &self.settings.goal;
                 let is_same = drive.goal.distance_to(choice.goal.position()) < goal.already_there_m;
-                if is_same || decided.is_open_near(drive.target, goal.commit_radius_m) {
+                let comes_first = choice.is_beside && !drive.is_beside;
+                if is_same || !comes_first && decided.is_open_near(drive.target, goal.commit_radius_m) {
                     drive.considered_s = map.stamp_s;
                     drive.considered_version = map.version;
+                    drive.done_at = None;
                     record.goal = Some(drive.goal);
                     "the goal under way is kept".clone_into(&mut record.why);
                     return;
@@ -151,11 +159,25 @@ impl Explorer {
                 goal: choice.goal,
                 target: choice.target,
                 is_stage: choice.is_stage,
+                is_beside: choice.is_beside,
                 since_s: now_s,
                 progress,
                 considered_s: map.stamp_s,
                 considered_version: map.version,
+                done_at: None,
             });
+            return;
+        }
+        // A robot that drives on gets its next map, and gmapping sends one that stands none.
+        if let State::Driving(drive) = &mut self.state
+            && drive.done_at.is_none_or(|version| map.version <= version)
+            && self.lookout.can_stand(map, drive.goal.position())
+        {
+            drive.done_at = Some(map.version);
+            (drive.considered_s, drive.considered_version) = (map.stamp_s, map.version);
+            record.goal = Some(drive.goal);
+            "nothing is left to choose on this map: the goal under way is kept until the next"
+                .clone_into(&mut record.why);
             return;
         }
         if !self.watch.is_fresh() {

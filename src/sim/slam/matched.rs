@@ -1,8 +1,9 @@
 //! A SLAM that errs as gmapping does: the pose is what odometry and scan matching make of
 //! it, and the map what the scans show when they are put there.
 //!
-//! As gmapping: a scan is processed only where odometry says that the robot has moved or
-//! turned (its `linearUpdate`, `angularUpdate`), so that at rest nothing comes; a processed
+//! As gmapping: a scan is processed only when odometry says that the robot has moved or
+//! turned so far since the last one, to and fro added up (its `linearUpdate`,
+//! `angularUpdate`), so that at rest nothing comes; a processed
 //! scan corrects `map -> odom`, which so jumps, and makes a map when the last one is old
 //! enough (`map_update_interval`). A cell is occupied when more than a quarter of the scans
 //! that met it ended in it (`occ_thresh` 0.25): counted as +3 for an end and -1 for a pass.
@@ -50,6 +51,11 @@ pub struct MatchedSlam {
     seen: Mapper,
     /// Where the last processed scan was by odometry and in the map.
     last: (Pose, Pose),
+    /// Where the newest sweep was by odometry, and the motion from sweep to sweep since the last
+    /// processed one: metres and radians.
+    swept: Pose,
+    moved_m: f64,
+    turned_rad: f64,
     mapped: Micros,
     map_from_odom: Pose,
     corrections: VecDeque<Coming<Pose>>,
@@ -96,6 +102,9 @@ impl MatchedSlam {
             mapper,
             seen,
             last: (first.base_in_odom, *start),
+            swept: first.base_in_odom,
+            moved_m: 0.0,
+            turned_rad: 0.0,
             mapped: 0,
             map_from_odom: start.compose(&first.base_in_odom.inverse()),
             corrections: VecDeque::new(),
@@ -114,12 +123,15 @@ impl MatchedSlam {
     /// Processes a sweep if the robot has moved since the last one.
     pub(super) fn add(&mut self, sweep: &Sweep, now: Micros) -> Result<(), MapperError> {
         self.lateness = draw(self.config.lateness_min_s, self.config.lateness_max_s, &mut self.random);
-        let (odom, placed) = self.last;
-        let moved = odom.inverse().compose(&sweep.base_in_odom);
-        let turned_rad = shortest_angle(0.0, moved.yaw).abs();
-        if moved.x.hypot(moved.y) < self.config.update_distance_m && turned_rad < self.config.update_angle_rad {
+        self.moved_m += self.swept.distance_to(sweep.base_in_odom.position());
+        self.turned_rad += shortest_angle(self.swept.yaw, sweep.base_in_odom.yaw).abs();
+        self.swept = sweep.base_in_odom;
+        if self.moved_m < self.config.update_distance_m && self.turned_rad < self.config.update_angle_rad {
             return Ok(());
         }
+        (self.moved_m, self.turned_rad) = (0.0, 0.0);
+        let (odom, placed) = self.last;
+        let moved = odom.inverse().compose(&sweep.base_in_odom);
         let prior = Prior::after_motion(&placed, &moved);
         let points = thinned_hits(&sweep.scan, &self.mount, self.config.max_points);
         let field = LikelihoodField::of(&*self.mapper.publish()?);

@@ -51,15 +51,15 @@ pub struct Report {
 
 impl Report {
     fn add(&mut self, a: CellState, b: CellState) {
-        use CellState::{Free, Occupied, Unknown};
+        use CellState::{Free, Occupied, Unknown, Unsettled};
         match (a, b) {
             (Free, Free) => self.both_free += 1,
             (Occupied, Occupied) => self.both_occupied += 1,
             (Free, Occupied) => self.free_to_occupied += 1,
             (Occupied, Free) => self.occupied_to_free += 1,
-            (Unknown, Unknown) => {}
-            (_, Unknown) => self.known_only_in_a += 1,
-            (Unknown, _) => self.known_only_in_b += 1,
+            (Unknown | Unsettled, Unknown | Unsettled) => {}
+            (_, Unknown | Unsettled) => self.known_only_in_a += 1,
+            (Unknown | Unsettled, _) => self.known_only_in_b += 1,
         }
     }
 

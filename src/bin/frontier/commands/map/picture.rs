@@ -28,14 +28,14 @@ pub fn write(path: &Path, raster: &GridInfo, states: impl Fn(usize) -> (CellStat
 
 /// The greys of map_saver where the maps agree, a colour where they do not.
 const fn colour(a: CellState, b: CellState) -> [u8; 3] {
-    use CellState::{Free, Occupied, Unknown};
+    use CellState::{Free, Occupied, Unknown, Unsettled};
     match (a, b) {
         (Free, Free) => [254, 254, 254],
         (Occupied, Occupied) => [0, 0, 0],
-        (Unknown, Unknown) => [205, 205, 205],
+        (Unknown | Unsettled, Unknown | Unsettled) => [205, 205, 205],
         (Free, Occupied) => [215, 48, 39],
         (Occupied, Free) => [69, 117, 180],
-        (_, Unknown) => [253, 174, 97],
-        (Unknown, _) => [102, 189, 99],
+        (_, Unknown | Unsettled) => [253, 174, 97],
+        (Unknown | Unsettled, _) => [102, 189, 99],
     }
 }

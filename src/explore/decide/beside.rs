@@ -1,0 +1,106 @@
+//! What lies beside the way is seen before the robot leaves it behind: a frontier that is
+//! passed over near by costs a way back from the other end of the building.
+
+use super::super::assess::Assessed;
+use super::{Lookout, SeenFrontier, Situation, Weighed};
+use crate::explore::record::CandidateStatus;
+use crate::frontier::DetectError;
+use crate::geometry::{Path, Point, Pose};
+use crate::planning::{GlobalPlanner, PathField};
+use crate::robot::MapSnapshot;
+
+/// A frontier is worth at most this share of the way to the goal that it comes before.
+const SHARE_OF_WAY: f64 = 0.5;
+/// Of a way that comes nearer to a frontier than the robot is by more than this, the robot
+/// will see it later, metres.
+const NEARER_M: f64 = 0.3;
+/// A robot that is on its way to a frontier beside goes on though it has become a little
+/// farther than it seemed.
+const UNDER_WAY_FACTOR: f64 = 1.5;
+
+impl Lookout {
+    /// Puts a frontier near by before the chosen one, where the way to the chosen one leads
+    /// away from it. All frontiers count that the robot fits through, also those that the
+    /// preset drops for their size.
+    ///
+    /// # Errors
+    /// [`DetectError`] when the map gives no answer.
+    pub(super) fn look_beside(
+        &mut self,
+        weighed: &mut Weighed,
+        situation: &Situation<'_>,
+        map: &MapSnapshot,
+        field: &PathField,
+    ) -> Result<(), DetectError> {
+        let settings = &situation.settings.goal;
+        let (Some(limit_m), Some(chosen), Some(way)) = (settings.beside_way_m, weighed.choice, &self.path) else {
+            return Ok(());
+        };
+        let (robot, info) = (situation.robot, map.grid.info());
+        let way = way.clone();
+        let worth_m = limit_m.min(SHARE_OF_WAY * way.length_m());
+        let under_way = |target: Point| {
+            situation.beside.is_some_and(|beside| nalgebra::distance(&beside, &target) <= settings.commit_radius_m)
+        };
+        let mut near = self.audit.frontiers(&map.grid, robot)?;
+        near.retain(|f| f.cells.iter().any(|&cell| robot.distance_to(info.center(cell)) <= limit_m));
+        let surroundings = self.surroundings(situation, map, Some(field));
+        let standing = &mut self.standing;
+        let mut open: Vec<(Pose, Assessed)> = near
+            .iter()
+            .map(|frontier| surroundings.assess(frontier, standing))
+            .filter(|a| a.record.status == CandidateStatus::Eligible)
+            .filter_map(|a| Some((a.candidate.as_ref()?.goal, a)))
+            .filter(|(_, a)| under_way(a.target) || leads_away(&way, &robot, a.target))
+            .collect();
+        open.sort_by(|(a, _), (b, _)| robot.distance_to(a.position()).total_cmp(&robot.distance_to(b.position())));
+        for (goal, mut beside) in open {
+            if nalgebra::distance(&beside.target, &chosen.target) <= settings.commit_radius_m {
+                return Ok(());
+            }
+            let limit_m = if under_way(beside.target) { UNDER_WAY_FACTOR * limit_m } else { worth_m };
+            let Ok(path) = self.guide.plan(field.costmap(), &robot, &goal) else { continue };
+            if path.length_m() > limit_m {
+                continue;
+            }
+            for other in &mut weighed.assessed {
+                if other.record.status == CandidateStatus::Chosen {
+                    (other.record.status, other.record.path_m) = (CandidateStatus::Eligible, None);
+                }
+            }
+            let number = beside.record.id as usize;
+            beside.record.id = weighed.assessed.iter().map(|a| a.record.id + 1).max().unwrap_or(0);
+            if let Some(frontier) = near.get(number) {
+                let cells = frontier.cells.iter().map(|&cell| info.center(cell)).collect();
+                self.frontiers.push(SeenFrontier { id: beside.record.id, cells });
+            }
+            let mut choice = beside.choose(goal, &path, false);
+            choice.is_beside = true;
+            weighed.assessed.insert(0, beside);
+            weighed.choice = Some(choice);
+            self.path = Some(path);
+            break;
+        }
+        Ok(())
+    }
+}
+
+/// Whether a way comes nowhere nearer to a point than the robot is.
+fn leads_away(way: &Path, robot: &Pose, target: Point) -> bool {
+    let here_m = robot.distance_to(target);
+    way.poses.iter().all(|pose| pose.distance_to(target) >= here_m - NEARER_M)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_that_passes_by_leads_not_away() {
+        let way = Path { poses: (0..10).map(|x| Pose::new(f64::from(x), 0.0, 0.0)).collect(), cost: 9.0 };
+        let robot = Pose::new(0.0, 0.0, 0.0);
+        assert!(leads_away(&way, &robot, Point::new(-1.0, 1.0)));
+        assert!(leads_away(&way, &robot, Point::new(0.2, 2.0)), "nearly abeam");
+        assert!(!leads_away(&way, &robot, Point::new(4.0, 1.0)));
+    }
+}
