@@ -55,6 +55,8 @@ pub struct Explorer {
     /// Goals that were reached, until a newer map shows what became of their frontiers.
     arrivals: Vec<Arrival>,
     recoveries_in_a_row: u32,
+    /// The version of the map that was there when the robot was last sent nowhere any more.
+    at_rest_since: Option<u64>,
     left_behind: LeftBehind,
     notice: Option<String>,
     /// When the age of a stale map was last told, seconds.
@@ -89,6 +91,7 @@ impl Explorer {
             map_lost_since_s: None,
             arrivals: Vec::new(),
             recoveries_in_a_row: 0,
+            at_rest_since: None,
             left_behind: LeftBehind::default(),
             notice: None,
             stale_told_s: f64::NEG_INFINITY,
@@ -197,6 +200,9 @@ impl Explorer {
         self.watch_for_maps(now_s);
         self.end_without_news(now_s);
         let record = self.advance(observation, pose);
+        let is_sent = matches!(self.state, State::Driving(_) | State::BackingOff { .. } | State::Returning { .. });
+        let version = self.watch.map().map_or(0, |map| map.version);
+        self.at_rest_since = (!is_sent).then(|| self.at_rest_since.unwrap_or(version));
         self.state.decision(record)
     }
 
@@ -224,7 +230,7 @@ impl Explorer {
                 State::Settling { since_s } => {
                     let waited_s = now_s - since_s;
                     let map = self.usable_map(now_s)?;
-                    if !self.watch.is_fresh() && waited_s < self.settings.patience.settle_s {
+                    if !self.shows_all() && waited_s < self.settings.patience.settle_s {
                         return None;
                     }
                     return self.decide(observation, &map, pose);

@@ -34,6 +34,10 @@ struct Teleporter {
     navigation: Navigation,
     aborts: bool,
     moves: bool,
+    /// It comes to rest a little before its goals, and nobody calls that arrived.
+    stops_short: bool,
+    /// Each map comes with a correction of its pose.
+    is_corrected: bool,
     home: Pose,
     log: Vec<Command>,
 }
@@ -50,7 +54,19 @@ impl Teleporter {
         let map = OccupancyGrid::filled(*world.info(), OccupancyGrid::UNKNOWN);
         let navigation = Navigation { command: 0, state: NavigationState::Idle };
         let pose = Pose::new(x, y, 0.0);
-        Self { world, map, pose, stamp_s: 0.0, navigation, aborts: false, moves: true, home: pose, log: Vec::new() }
+        Self {
+            world,
+            map,
+            pose,
+            stamp_s: 0.0,
+            navigation,
+            aborts: false,
+            moves: true,
+            stops_short: false,
+            is_corrected: false,
+            home: pose,
+            log: Vec::new(),
+        }
     }
 
     fn observation(&mut self) -> Observation {
@@ -64,9 +80,10 @@ impl Teleporter {
             }
         }
         self.stamp_s += 1.0;
+        let correction_m = if self.is_corrected && self.stamp_s % 2.0 == 0.0 { 0.07 } else { 0.0 };
         Observation {
             stamp_s: self.stamp_s,
-            pose_in_map: Ok(self.pose),
+            pose_in_map: Ok(Pose::new(self.pose.x + correction_m, self.pose.y, self.pose.yaw)),
             map: Some(MapSnapshot {
                 stamp_s: self.stamp_s,
                 version: self.stamp_s as u64,
@@ -90,6 +107,10 @@ impl Teleporter {
                         if self.pose.distance_to(home.position()) > 0.1 { home } else { halfway(&home, goal_in_map) };
                 }
                 (*id, NavigationState::Aborted("no way".to_owned()))
+            }
+            Command::Drive { id, goal_in_map } if self.stops_short => {
+                self.pose = goal_in_map.compose(&Pose::new(-0.2, 0.0, 0.0));
+                (*id, NavigationState::Active)
             }
             Command::Drive { id, goal_in_map } => {
                 self.pose = *goal_in_map;
@@ -204,6 +225,55 @@ fn a_frontier_that_stays_is_visited_twice_and_then_left() {
     assert_eq!(end.reason, EndReason::Complete);
     assert_eq!((end.left_behind.exhausted, end.left_behind.frontiers), (1, 1));
     assert!(explorer.counts().turns <= 4);
+}
+
+#[test]
+fn a_robot_that_drives_on_at_once_has_been_there_all_the_same() {
+    // Two windows, and a lidar that cannot look through them.
+    let mut robot = Teleporter::new("#########\n?.......?\n#########", 4.5, 1.5);
+    robot.stops_short = true;
+    let turns = TurnSettings { at_start: false, at_goal: false, recoveries: 0 };
+    let mut settings = ExplorerSettings { turns, ..ExplorerSettings::default() };
+    settings.goal.reconsider_period_s = Some(1.0);
+    let sight = Sight { range_m: 1.0, field_of_view_rad: TAU, heading_rad: 0.0 };
+    let mut explorer = Explorer::new(settings, &RobotTraits { sight, ..point_robot() }).unwrap();
+    let end = (0..200).find_map(|_| {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+        decision.end
+    });
+    let end = end.expect("an end, and no driving to and fro until nothing was seen for long");
+    assert_eq!((end.reason, end.left_behind.frontiers), (EndReason::Complete, 2), "{}", end.message);
+}
+
+#[test]
+fn a_pose_that_is_corrected_with_each_map_puts_off_no_end() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    robot.is_corrected = true;
+    let (end, _) = robot.explore(ExplorerSettings::default());
+    assert_eq!(end.reason, EndReason::Complete, "{}", end.message);
+}
+
+#[test]
+fn what_lies_beside_the_way_comes_before_it() {
+    const CORRIDOR: &str = "################\n#.............??\n?.............??\n#.............??\n################";
+    let goal_x = |beside_way_m| {
+        let mut robot = Teleporter::new(CORRIDOR, 3.5, 2.5);
+        robot.map = robot.world.clone();
+        let mut settings = ExplorerSettings::default();
+        settings.turns.at_start = false;
+        // The window to the left is too small for the preset.
+        settings.detector.min_size_m = 2.0;
+        settings.goal.beside_way_m = beside_way_m;
+        let mut explorer = Explorer::new(settings, &point_robot()).unwrap();
+        match explorer.step(&robot.observation()).command {
+            Command::Drive { goal_in_map, .. } => goal_in_map.x,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert!(goal_x(None) > 10.0);
+    assert!(goal_x(Some(4.0)) < 3.0);
+    assert!(goal_x(Some(1.0)) > 10.0, "too far to be beside the way");
 }
 
 #[test]

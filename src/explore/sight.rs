@@ -45,6 +45,9 @@ impl Sight {
 const SURE_M: f64 = 3.0;
 /// A lidar with this opening angle or more leaves nothing out worth a turn, radians.
 const ALL_ROUND_RAD: f64 = 6.0;
+/// So near to a cell, what a line meets belongs to the same wall, metres: gmapping smears one
+/// over two or three cells, and erases it in part when it looks along it from afar.
+const SMEAR_M: f64 = 0.15;
 /// From one place that is remembered to the next, metres and radians.
 const SPACING_M: f64 = 0.25;
 const SPACING_RAD: f64 = 0.3;
@@ -175,7 +178,9 @@ fn is_line_free(from: Point, to: Cell, info: &GridInfo, is_free: impl Fn(Cell) -
     let own = info.cell_at(from);
     let line = info.center(to) - from;
     // The robot's own cell may hold anything: noise marks it now and then.
-    traverse(info, from, line.y.atan2(line.x), line.norm()).all(|(cell, _)| cell == own || is_free(cell))
+    let is_smear = |cell: Cell| nalgebra::distance(&info.center(cell), &info.center(to)) <= SMEAR_M;
+    traverse(info, from, line.y.atan2(line.x), line.norm())
+        .all(|(cell, _)| cell == own || is_free(cell) || is_smear(cell))
 }
 
 fn square_of(point: Point) -> (i32, i32) {

@@ -4,16 +4,20 @@
 use super::super::assess::Assessed;
 use super::{Lookout, SeenFrontier, Situation, Weighed};
 use crate::explore::record::CandidateStatus;
+use crate::explore::sight::is_in_sight;
 use crate::frontier::DetectError;
 use crate::geometry::{Path, Point, Pose};
+use crate::grid::{OccupancyGrid, Thresholds};
 use crate::planning::{GlobalPlanner, PathField};
 use crate::robot::MapSnapshot;
 
 /// A frontier is worth at most this share of the way to the goal that it comes before.
 const SHARE_OF_WAY: f64 = 0.5;
-/// Of a way that comes nearer to a frontier than the robot is by more than this, the robot
-/// will see it later, metres.
+/// Where a way comes nearer to a frontier than the robot is by more than this, and in sight of
+/// it, the robot will see it later, metres.
 const NEARER_M: f64 = 0.3;
+/// From one place on a way that is asked for that to the next, metres.
+const STEP_M: f64 = 0.25;
 /// A robot that is on its way to a frontier beside goes on though it has become a little
 /// farther than it seemed.
 const UNDER_WAY_FACTOR: f64 = 1.5;
@@ -38,6 +42,8 @@ impl Lookout {
         };
         let (robot, info) = (situation.robot, map.grid.info());
         let way = way.clone();
+        let thresholds = self.thresholds;
+
         let worth_m = limit_m.min(SHARE_OF_WAY * way.length_m());
         let under_way = |target: Point| {
             situation.beside.is_some_and(|beside| nalgebra::distance(&beside, &target) <= settings.commit_radius_m)
@@ -51,7 +57,7 @@ impl Lookout {
             .map(|frontier| surroundings.assess(frontier, standing))
             .filter(|a| a.record.status == CandidateStatus::Eligible)
             .filter_map(|a| Some((a.candidate.as_ref()?.goal, a)))
-            .filter(|(_, a)| under_way(a.target) || leads_away(&way, &robot, a.target))
+            .filter(|(_, a)| under_way(a.target) || leads_away(&way, a.target, &map.grid, &thresholds))
             .collect();
         open.sort_by(|(a, _), (b, _)| robot.distance_to(a.position()).total_cmp(&robot.distance_to(b.position())));
         for (goal, mut beside) in open {
@@ -85,22 +91,37 @@ impl Lookout {
     }
 }
 
-/// Whether a way comes nowhere nearer to a point than the robot is.
-fn leads_away(way: &Path, robot: &Pose, target: Point) -> bool {
-    let here_m = robot.distance_to(target);
-    way.poses.iter().all(|pose| pose.distance_to(target) >= here_m - NEARER_M)
+/// Whether a way comes nowhere nearer to a point than it begins, where that is in sight.
+fn leads_away(way: &Path, target: Point, grid: &OccupancyGrid, thresholds: &Thresholds) -> bool {
+    let Some(&(mut last)) = way.poses.first() else { return true };
+    let here_m = last.distance_to(target);
+    let cell = grid.info().cell_at(target);
+    way.poses.iter().all(|pose| {
+        if pose.distance_to(target) >= here_m - NEARER_M || pose.distance_to(last.position()) < STEP_M {
+            return true;
+        }
+        last = *pose;
+        !is_in_sight(pose.position(), cell, grid, thresholds)
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::grid::{Cell, GridInfo};
 
     #[test]
     fn a_way_that_passes_by_leads_not_away() {
         let way = Path { poses: (0..10).map(|x| Pose::new(f64::from(x), 0.0, 0.0)).collect(), cost: 9.0 };
-        let robot = Pose::new(0.0, 0.0, 0.0);
-        assert!(leads_away(&way, &robot, Point::new(-1.0, 1.0)));
-        assert!(leads_away(&way, &robot, Point::new(0.2, 2.0)), "nearly abeam");
-        assert!(!leads_away(&way, &robot, Point::new(4.0, 1.0)));
+        let info = GridInfo::new(40, 40, 0.5, Pose::new(-5.0, -5.0, 0.0)).unwrap();
+        let mut grid = OccupancyGrid::filled(info, 0);
+        let away = |grid: &OccupancyGrid, x, y| leads_away(&way, Point::new(x, y), grid, &Thresholds::default());
+        assert!(away(&grid, -1.0, 1.0));
+        assert!(away(&grid, 0.2, 2.0), "nearly abeam");
+        assert!(!away(&grid, 4.0, 2.2));
+        for x in 0..40 {
+            grid.set(Cell::new(x, 12), 100);
+        }
+        assert!(away(&grid, 4.0, 2.2), "behind a wall it is not seen in passing");
     }
 }

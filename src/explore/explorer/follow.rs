@@ -68,7 +68,7 @@ impl Explorer {
             sights: &self.sights,
             driven: &self.driven,
             robot: pose,
-            awaits_map: !self.watch.is_fresh() && !matches!(self.state, State::Driving(_)),
+            awaits_map: !self.shows_all() && !matches!(self.state, State::Driving(_)),
             beside: match &self.state {
                 State::Driving(drive) => drive.is_beside.then_some(drive.target),
                 _ => None,
@@ -96,7 +96,7 @@ impl Explorer {
     fn count_visits(&mut self, decided: &Decided) {
         let radius_m = self.settings.taboo.radius_m;
         let version = self.watch.map().map_or(0, |map| map.version);
-        let is_fresh = self.watch.is_fresh();
+        let is_fresh = self.shows_all();
         let shows = |arrival: &mut Arrival| is_fresh || version >= *arrival.decided_at.get_or_insert(version) + 2;
         let shown: Vec<Arrival> = self.arrivals.extract_if(.., shows).collect();
         for Arrival { target, place, .. } in shown {
@@ -113,7 +113,7 @@ impl Explorer {
     fn follow(&mut self, decided: &Decided, map: &MapSnapshot, now_s: f64, record: &mut DecisionRecord, pose: Pose) {
         if let Some(share) = self.share_known(map)
             && self.settings.finish.good_enough_share.is_some_and(|enough| share >= enough)
-            && self.watch.is_fresh()
+            && self.shows_all()
             && decided.left_behind.frontiers > 0
         {
             let left = 100.0 * (1.0 - share);
@@ -180,7 +180,7 @@ impl Explorer {
                 .clone_into(&mut record.why);
             return;
         }
-        if !self.watch.is_fresh() {
+        if !self.shows_all() {
             "nothing is left to choose on this map: one that came after the last motion shall confirm it"
                 .clone_into(&mut record.why);
             self.keep_confirming(map.version, now_s);
@@ -209,6 +209,14 @@ impl Explorer {
         self.settings.finish.good_enough_share?;
         let free_m2 = map.grid.census(&self.settings.thresholds).free as f64 * map.grid.info().cell_area_m2();
         Some(free_m2 / (free_m2 + self.left_behind.area_m2).max(f64::MIN_POSITIVE))
+    }
+
+    /// Whether the map shows all that could be seen from where the robot is: it came after the
+    /// last motion, or it is the second since the robot came to rest. Where poses jump with every
+    /// map, as a SLAM corrects them, none would ever be of after the last motion.
+    pub(super) fn shows_all(&self) -> bool {
+        let version = self.watch.map().map_or(0, |map| map.version);
+        self.watch.is_fresh() || self.at_rest_since.is_some_and(|since| version >= since + 2)
     }
 
     /// Goes on waiting for a map of after the last motion.
