@@ -1,12 +1,14 @@
 //! Configuration files: raw serde structs that become validated types (floor 2).
 
 mod merge;
+mod names;
 mod node;
 mod params;
 mod preset;
 mod robot;
 mod robots;
 
+pub use names::hint;
 pub use node::{NodeParams, NodeParamsError, TurnBy};
 pub use params::{ParamError, read_params};
 pub use preset::{Drive, NavigationSettings, Preset, PresetError};

@@ -1,5 +1,6 @@
 //! Trees of ROS parameters as typed values.
 
+use super::names::one_line;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -20,6 +21,6 @@ pub struct ParamError {
 pub fn read_params<T: for<'de> Deserialize<'de>>(tree: Value) -> Result<T, ParamError> {
     serde_path_to_error::deserialize(tree).map_err(|error| {
         let path = error.path().to_string();
-        ParamError { path, message: error.into_inner().to_string() }
+        ParamError { path, message: one_line(&error.into_inner().to_string()) }
     })
 }

@@ -1,5 +1,6 @@
 //! Presets: one YAML file for each document that is implemented, in `configs/`.
 
+use super::names::{hint, one_line};
 use crate::control::ControllerConfig;
 use crate::explore::{ExplorerSettings, SettingsError};
 use crate::navigation::NavigatorConfig;
@@ -19,12 +20,14 @@ pub enum PresetError {
     #[error("navigation.{0}")]
     Navigation(#[from] OutOfRange),
     /// A name that no built-in preset has.
-    #[error("there is no preset {name:?}: must be one of {valid}")]
+    #[error("there is no preset {name:?}: must be one of {valid}{hint}")]
     Unknown {
         /// As given.
         name: String,
         /// The valid names.
         valid: String,
+        /// The nearest of them, if one is near.
+        hint: String,
     },
 }
 
@@ -89,8 +92,10 @@ impl Preset {
     /// [`PresetError::Unknown`] with the valid names.
     pub fn built_in(name: &str) -> Result<Self, PresetError> {
         let known = BUILT_IN.iter().find(|(known, _)| *known == name);
-        let unknown =
-            || PresetError::Unknown { name: name.to_owned(), valid: Self::names().collect::<Vec<_>>().join(", ") };
+        let unknown = || {
+            let valid = Self::names().collect::<Vec<_>>().join(", ");
+            PresetError::Unknown { name: name.to_owned(), valid, hint: hint(name, Self::names()) }
+        };
         let (name, text) = known.ok_or_else(unknown)?;
         Self::from_yaml(text, name)
     }
@@ -100,7 +105,8 @@ impl Preset {
     /// # Errors
     /// [`PresetError`] that names the key, the value and what is allowed.
     pub fn from_yaml(text: &str, name: &str) -> Result<Self, PresetError> {
-        let mut preset: Self = serde_saphyr::from_str(text).map_err(|e| PresetError::Syntax(e.to_string()))?;
+        let mut preset: Self =
+            serde_saphyr::from_str(text).map_err(|e| PresetError::Syntax(one_line(&e.to_string())))?;
         if preset.preset.is_empty() {
             name.clone_into(&mut preset.preset);
         }

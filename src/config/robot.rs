@@ -1,6 +1,7 @@
 //! A robot: outline, speeds, lidar and how its navigation inflates obstacles.
 //! One file for each in `configs/robots/`.
 
+use super::names::one_line;
 use crate::explore::{RobotTraits, Sight};
 use crate::geometry::{Body, Footprint, FootprintError, MotionLimits, Pose};
 use crate::grid::Inflation;
@@ -20,12 +21,14 @@ pub enum RobotConfigError {
     #[error(transparent)]
     Footprint(#[from] FootprintError),
     /// A name that no built-in robot has.
-    #[error("no robot is called '{name}': must be one of {known}")]
+    #[error("no robot is called '{name}': must be one of {known}{hint}")]
     UnknownName {
         /// As given.
         name: String,
         /// The names that there are.
         known: String,
+        /// The nearest of them, if one is near.
+        hint: String,
     },
 }
 
@@ -86,7 +89,8 @@ impl RobotConfig {
     /// # Errors
     /// [`RobotConfigError`] that names the key, the value and what is allowed.
     pub fn from_yaml(text: &str) -> Result<Self, RobotConfigError> {
-        let robot: Self = serde_saphyr::from_str(text).map_err(|e| RobotConfigError::Syntax(e.to_string()))?;
+        let robot: Self =
+            serde_saphyr::from_str(text).map_err(|e| RobotConfigError::Syntax(one_line(&e.to_string())))?;
         robot.validate()?;
         Ok(robot)
     }

@@ -1,6 +1,7 @@
 //! The robots of `configs/robots/`, carried in the library so that their names work
 //! wherever it runs.
 
+use super::names::hint;
 use super::{RobotConfig, RobotConfigError};
 
 /// Every built-in robot: its name, and the text of its file.
@@ -26,6 +27,7 @@ pub fn builtin_robot(name: &str) -> Result<RobotConfig, RobotConfigError> {
         None => Err(RobotConfigError::UnknownName {
             name: name.to_owned(),
             known: BUILTIN_ROBOTS.map(|(known, _)| known).join(", "),
+            hint: hint(name, BUILTIN_ROBOTS.iter().map(|(known, _)| *known)),
         }),
     }
 }
@@ -55,7 +57,7 @@ mod tests {
         assert_eq!(
             message,
             "no robot is called 'turtlebot': must be one of turtlebot2, turtlebot2_astra, turtlebot3_burger, \
-             turtlebot3_waffle"
+             turtlebot3_waffle (did you mean turtlebot2?)"
         );
     }
 

@@ -14,6 +14,16 @@ pub enum MapError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// A word that is neither a file nor the name of a built-in world.
+    #[error("there is no world {name:?}: must be one of {known}, or a map_server YAML file{hint}")]
+    NoSuchWorld {
+        /// As given.
+        name: String,
+        /// The built-in worlds.
+        known: String,
+        /// The nearest of them, if one is near.
+        hint: String,
+    },
     /// A directory, pipe or device where a file is needed.
     #[error("{} is {found}: must be {expected}", .path.display())]
     NotAFile {

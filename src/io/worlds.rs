@@ -3,6 +3,7 @@
 
 use super::map_load::{load_map, map_from_bytes};
 use super::{MapError, file_stem};
+use crate::config::hint;
 use crate::grid::OccupancyGrid;
 use std::path::Path;
 
@@ -29,6 +30,15 @@ built_in!("office", "museum", "maze", "warehouse");
 pub fn load_world(name_or_file: &str) -> Result<(OccupancyGrid, String), MapError> {
     match FILES.iter().find(|(name, ..)| *name == name_or_file) {
         Some((name, yaml, image)) => Ok((map_from_bytes(name, yaml, image)?.grid, (*name).to_owned())),
-        None => Ok((load_map(Path::new(name_or_file))?.grid, file_stem(name_or_file))),
+        None => {
+            let path = Path::new(name_or_file);
+            let is_word = path.extension().is_none() && path.components().count() == 1;
+            if is_word && !path.exists() {
+                let hint = hint(name_or_file, BUILT_IN_WORLDS.into_iter());
+                let (name, known) = (name_or_file.to_owned(), BUILT_IN_WORLDS.join(", "));
+                return Err(MapError::NoSuchWorld { name, known, hint });
+            }
+            Ok((load_map(path)?.grid, file_stem(name_or_file)))
+        }
     }
 }

@@ -5,6 +5,16 @@ use super::node::{Node, NodeError};
 use super::stop;
 use std::fmt::Display;
 
+/// Prints a node's help where its command line asks for it, and whether it did.
+pub(super) fn has_helped(text: impl FnOnce() -> String) -> bool {
+    let asks = std::env::args().skip(1).any(|argument| argument == "--help" || argument == "-h");
+    if asks {
+        // A reader that has gone is no error.
+        let _ = std::io::Write::write_all(&mut std::io::stdout(), text().as_bytes());
+    }
+    asks
+}
+
 /// Starts a node, lets it work, and says good-bye. Returns the exit code: what the work
 /// returns, or 1 with a line on what failed. Told to stop, the process ends within two
 /// seconds; what must not be lost then is for the work to say (`stop::set_will`).

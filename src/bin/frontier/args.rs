@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{bag, bench, compare, demo, detect, explore, map, replay};
+use crate::commands::{bag, bench, compare, demo, detect, explore, map, replay, shell};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -34,4 +34,8 @@ pub enum Command {
     /// Time decisions on a map.
     #[command(subcommand)]
     Bench(bench::Command),
+    /// Print completions for a shell.
+    Completions(shell::CompletionsArgs),
+    /// Write man pages.
+    Man(shell::ManArgs),
 }

@@ -21,8 +21,38 @@ pub fn code(result: anyhow::Result<Outcome>) -> ExitCode {
         Ok(Outcome::Incomplete) => ExitCode::from(3),
         Err(error) => {
             // A closed stderr is no reason to panic while reporting.
-            let _ = std::io::Write::write_all(&mut std::io::stderr(), format!("frontier: {error:#}\n").as_bytes());
+            let line = format!("frontier: {}\n", told_once(&error));
+            let _ = std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes());
             ExitCode::FAILURE
         }
+    }
+}
+
+/// An error with its causes in one line: what a message says already of its own cause is not
+/// said again.
+fn told_once(error: &anyhow::Error) -> String {
+    let mut told = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if told.is_empty() {
+            told = cause;
+        } else if !told.contains(&cause) {
+            told = format!("{told}: {cause}");
+        }
+    }
+    told
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use anyhow::Context;
+
+    #[test]
+    fn a_cause_is_told_once() {
+        let cause = std::io::Error::other("no such file");
+        let error = anyhow::Error::new(cause).context("cannot read offce: no such file").context("a world");
+        assert_eq!(told_once(&error), "a world: cannot read offce: no such file");
+        let other: anyhow::Result<()> = Err(anyhow::anyhow!("disk full")).context("cannot write map.pgm");
+        assert_eq!(told_once(&other.unwrap_err()), "cannot write map.pgm: disk full");
     }
 }

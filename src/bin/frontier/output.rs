@@ -10,6 +10,11 @@ pub fn line(text: Arguments<'_>) -> anyhow::Result<()> {
     deliver(&mut std::io::stdout().lock(), format!("{text}\n").as_bytes())
 }
 
+/// Writes bytes as they are.
+pub fn bytes(bytes: &[u8]) -> anyhow::Result<()> {
+    deliver(&mut std::io::stdout().lock(), bytes)
+}
+
 /// Writes a value as indented JSON and a line end.
 pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
     let text = serde_json::to_string_pretty(value).context("cannot write the result as JSON")?;

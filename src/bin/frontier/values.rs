@@ -1,6 +1,7 @@
 //! Values on the command line that are more than a word or a number.
 
 use frontier_explorer::geometry::Pose;
+use std::f64::consts::TAU;
 
 /// Reads `X,Y` or `X,Y,YAW` in metres and radians.
 pub fn pose(text: &str) -> Result<Pose, String> {
@@ -11,7 +12,19 @@ pub fn pose(text: &str) -> Result<Pose, String> {
         [x, y, yaw] => Pose::new(x, y, yaw),
         _ => return Err(wrong()),
     };
-    if pose.is_finite() { Ok(pose) } else { Err(wrong()) }
+    if !pose.is_finite() {
+        return Err(wrong());
+    }
+    if pose.yaw.abs() > TAU {
+        let radians = pose.yaw.to_radians();
+        return Err(format!("a yaw of {} is more than a turn: if degrees were meant, say {radians:.4}", pose.yaw));
+    }
+    Ok(pose)
+}
+
+/// Reads a word of a list, without the spaces that follow a comma.
+pub fn trimmed(text: &str) -> Result<String, std::convert::Infallible> {
+    Ok(text.trim().to_owned())
 }
 
 /// Reads a number of metres greater than 0.
@@ -38,6 +51,8 @@ mod tests {
     fn poses_have_two_or_three_numbers() {
         assert_eq!(pose("25,20"), Ok(Pose::new(25.0, 20.0, 0.0)));
         assert_eq!(pose("-1.5, 2, 0.5"), Ok(Pose::new(-1.5, 2.0, 0.5)));
+        let degrees = pose("5,5,90").unwrap_err();
+        assert_eq!(degrees, "a yaw of 90 is more than a turn: if degrees were meant, say 1.5708");
         for wrong in ["", "1", "1,x", "1,2,3,4", "1,nan", "1,inf"] {
             assert!(pose(wrong).is_err(), "{wrong}");
         }

@@ -8,10 +8,10 @@ mod watcher;
 
 use super::display::status_sentence;
 use super::node::{Node, NodeError};
-use super::program::run_program;
+use super::program::{has_helped, run_program};
 use super::robot::RosRobot;
 use super::stop;
-use crate::config::{NodeParams, NodeParamsError, Preset, RobotConfig};
+use crate::config::{BUILTIN_ROBOTS, NodeParams, NodeParamsError, Preset, RobotConfig};
 use crate::explore::{End, Explorer, SettingsError, run as explore};
 use crate::geometry::Polygon;
 use crate::io::{SettingsFileError, load_preset, load_robot};
@@ -57,8 +57,29 @@ pub(super) struct Settings {
 /// 3 ended without having explored everything.
 #[must_use]
 pub fn explore_node() -> u8 {
+    if has_helped(help) {
+        return 0;
+    }
     // What is registered is given back after that, which a master that hangs may keep for ever.
     run_program("explore", |node| explore_until(node, stop::leave_in_time))
+}
+
+fn help() -> String {
+    let presets = Preset::names().collect::<Vec<_>>().join(", ");
+    let robots = BUILTIN_ROBOTS.map(|(name, _)| name).join(", ");
+    format!(
+        "explore_node: frontier exploration of a robot with a map, transforms and move_base\n\n\
+         Usage: explore_node [_PARAMETER:=VALUE]... [TOPIC:=OTHER]... [__name:=NAME] [__ns:=NAMESPACE]\n\n\
+         \x20 _config:=liang               a preset or a YAML file: {presets}\n\
+         \x20 _robot:=turtlebot2           a robot or a YAML file: {robots}\n\
+         \x20 _base_frame:=base_link       the robot's frame\n\
+         \x20 _move_base:=move_base        the action server\n\
+         \x20 _map_file:=FILE              save the map there at the end\n\
+         \x20 _exit_when_done:=true        leave at the end: 0 done, 1 failed, 3 frontiers were left\n\
+         \x20 _region:=[[X, Y], ...]       explore inside a polygon alone, metres in the map's frame\n\
+         \x20 _explorer:={{...}}             any setting of `frontier explore --print-config`\n\n\
+         docs/ros.md has all of them, the topics, and what happens when a part of the stack goes away.\n"
+    )
 }
 
 fn read_settings(node: &Node) -> Result<Settings, ExploreNodeError> {

@@ -19,7 +19,7 @@ use super::convert;
 use super::msg::geometry_msgs::Twist as TwistMessage;
 use super::msg::std_msgs::String as StringMessage;
 use super::node::{Node, NodeError};
-use super::program::run_program;
+use super::program::{has_helped, run_program};
 use crate::geometry::Twist;
 use crate::io::{MapError, SettingsFileError, load_preset, load_robot, load_world};
 use crate::navigation::Navigator;
@@ -69,9 +69,27 @@ pub enum SimNodeError {
     Mapper(#[from] MapperError),
 }
 
+const HELP: &str = "\
+sim_node: a simulated robot with a mapper and a stand-in for move_base
+
+Usage: sim_node [_PARAMETER:=VALUE]... [TOPIC:=OTHER]... [__name:=NAME] [__ns:=NAMESPACE]
+
+  _world:=office         office, museum, maze, warehouse, or a map_server YAML file
+  _robot:=turtlebot2     a robot or a YAML file
+  _start:=[X, Y, YAW]    where it begins, metres and radians
+  _speed:=1.0            times as fast as real time; needs /use_sim_time unless 1
+  _slam:=matched         or perfect: the true pose, a map without errors once a second
+  _move_base:=true       play the part of move_base
+
+docs/ros.md has all of them.
+";
+
 /// Runs the simulator until it is told to stop; returns the exit code.
 #[must_use]
 pub fn sim_node() -> u8 {
+    if has_helped(|| HELP.to_owned()) {
+        return 0;
+    }
     run_program("sim", |node| simulate_with(node).map(|()| 0))
 }
 

@@ -8,6 +8,7 @@ pub mod detect;
 pub mod explore;
 pub mod map;
 pub mod replay;
+pub mod shell;
 
 use crate::args::Command;
 use crate::exit::Outcome;
@@ -23,5 +24,7 @@ pub fn run(command: Command) -> anyhow::Result<Outcome> {
         Command::Bag(command) => bag::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Map(command) => map::run(&command),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     }
 }

@@ -27,10 +27,10 @@ use worlds::LoadedWorld;
 #[derive(Debug, clap::Args)]
 pub struct Args {
     /// Presets, by built-in name or YAML file, or `all` built-in ones.
-    #[arg(long, value_name = "PRESET,...", value_delimiter = ',', default_value = "all")]
+    #[arg(long, value_name = "PRESET,...", value_parser = values::trimmed, value_delimiter = ',', default_value = "all")]
     presets: Vec<String>,
     /// Worlds: map_server YAML files, or built-in names (office, museum, maze, warehouse).
-    #[arg(long, value_name = "WORLD,...", value_delimiter = ',', default_values_t = BUILT_IN_WORLDS.map(str::to_owned))]
+    #[arg(long, value_name = "WORLD,...", value_parser = values::trimmed, value_delimiter = ',', default_values_t = BUILT_IN_WORLDS.map(str::to_owned))]
     worlds: Vec<String>,
     /// Where runs begin: a CSV file with the columns map,x_m,y_m, or `auto:N` for N open
     /// spots far from each other. When left out: three places in each built-in world,
@@ -48,7 +48,7 @@ pub struct Args {
     #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = parse_slam)]
     slam: SlamKind,
     /// End each run after this time of the simulation, seconds; it has then failed.
-    #[arg(long, value_name = "S", value_parser = values::positive_seconds, default_value = "7200")]
+    #[arg(long, value_name = "S", value_parser = values::positive_seconds, allow_negative_numbers = true, default_value = "7200")]
     time_limit: f64,
     /// Runs at the same time. As many as there are processors when left out.
     #[arg(long, value_name = "N")]

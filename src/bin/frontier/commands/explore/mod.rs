@@ -38,10 +38,10 @@ pub struct Args {
     #[arg(long, value_name = "X,Y", value_parser = values::pose, allow_hyphen_values = true)]
     start: Option<Pose>,
     /// How far the lidar sees, metres, instead of the robot's own range.
-    #[arg(long, value_name = "M", value_parser = values::positive_metres)]
+    #[arg(long, value_name = "M", value_parser = values::positive_metres, allow_negative_numbers = true)]
     lidar_range: Option<f64>,
     /// Standard deviation of the lidar's ranges, metres, instead of the robot's own.
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
     lidar_noise: Option<f64>,
     /// The values of the map: gmapping (-1, 0, 100) or cartographer (-1, 0 to 100).
     #[arg(long, value_name = "STYLE", default_value = "gmapping", value_parser = parse_style)]
@@ -52,10 +52,10 @@ pub struct Args {
     #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = parse_slam)]
     slam: SlamKind,
     /// Decides every random number of the run.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true)]
     seed: u64,
     /// End after this time of the simulation, seconds.
-    #[arg(long, value_name = "S", value_parser = values::positive_seconds)]
+    #[arg(long, value_name = "S", value_parser = values::positive_seconds, allow_negative_numbers = true)]
     time_limit: Option<f64>,
     /// Drive back to the start before ending.
     #[arg(long)]

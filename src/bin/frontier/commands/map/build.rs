@@ -30,11 +30,11 @@ pub struct Args {
     #[arg(long, value_name = "FRAME")]
     pose_frame: Option<String>,
     /// Edge length of a cell, metres.
-    #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres)]
+    #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres, allow_negative_numbers = true)]
     resolution: f64,
     /// Readings beyond this only clear what lies before it, metres; the lidar's own limit,
     /// or 100 m, when left out.
-    #[arg(long, value_name = "M", value_parser = values::positive_metres)]
+    #[arg(long, value_name = "M", value_parser = values::positive_metres, allow_negative_numbers = true)]
     max_range: Option<f64>,
     /// Believe odometry and match nothing: the picture before.
     #[arg(long)]

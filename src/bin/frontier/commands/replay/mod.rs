@@ -41,7 +41,7 @@ pub struct Args {
     #[arg(long)]
     map_from_scans: bool,
     /// Edge length of a cell of a map that is made of scans, metres.
-    #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres)]
+    #[arg(long, value_name = "M", default_value = "0.05", value_parser = values::positive_metres, allow_negative_numbers = true)]
     resolution: f64,
     /// The robot's frame, instead of the one that is guessed.
     #[arg(long, value_name = "FRAME")]
@@ -56,7 +56,7 @@ pub struct Args {
     #[arg(long, value_name = "S")]
     at: Vec<f64>,
     /// End at this time after the bag's begin, seconds.
-    #[arg(long, value_name = "S", value_parser = values::positive_seconds)]
+    #[arg(long, value_name = "S", value_parser = values::positive_seconds, allow_negative_numbers = true)]
     until: Option<f64>,
     /// Where the results go.
     #[arg(long, value_name = "DIR", default_value = "replay")]
