@@ -24,13 +24,14 @@ impl Explorer {
         let ours = observation.navigation.command == drive.id;
         match &observation.navigation.state {
             NavigationState::Succeeded if ours => {
-                let (target, place, is_stage) = (drive.target, drive.goal.position(), drive.is_stage);
+                let (target, place) = (drive.target, drive.goal.position());
+                let (is_stage, is_beside) = (drive.is_stage, drive.is_beside);
                 self.counts.goals_reached += 1;
                 self.recoveries_in_a_row = 0;
                 self.trouble.is_over();
                 self.state = State::Ready;
                 if !is_stage {
-                    self.arrivals.push(Arrival { target, place, decided_at: None });
+                    self.arrivals.push(Arrival { target, place, decided_at: None, is_beside });
                     if self.settings.turns.at_goal {
                         self.look_round(now_s);
                     }

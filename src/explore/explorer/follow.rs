@@ -23,6 +23,8 @@ pub struct Arrival {
     pub place: Point,
     /// The version of the map that was decided on first after that.
     pub decided_at: Option<u64>,
+    /// Whether it lay beside the way: then the preset may not see it, and it counts in any case.
+    pub is_beside: bool,
 }
 
 impl Explorer {
@@ -99,11 +101,11 @@ impl Explorer {
         let is_fresh = self.shows_all();
         let shows = |arrival: &mut Arrival| is_fresh || version >= *arrival.decided_at.get_or_insert(version) + 2;
         let shown: Vec<Arrival> = self.arrivals.extract_if(.., shows).collect();
-        for Arrival { target, place, .. } in shown {
+        for Arrival { target, place, is_beside, .. } in shown {
             let is_there = |point: Point| nalgebra::distance(&point, &target) <= radius_m;
             let mut targets = decided.record.candidates.iter().map(|c| Point::new(c.target.x, c.target.y));
             let mut cells = self.lookout.frontiers().iter().flat_map(|frontier| &frontier.cells);
-            if targets.any(is_there) || cells.any(|&cell| is_there(cell)) {
+            if is_beside || targets.any(is_there) || cells.any(|&cell| is_there(cell)) {
                 self.blacklist.record_visit(target, place);
             }
         }
@@ -139,9 +141,19 @@ impl Explorer {
                     "the goal under way is kept".clone_into(&mut record.why);
                     return;
                 }
+                let place = drive.goal.position();
                 if let Some((target, place)) = decided.seen_from_here(drive.target, goal.commit_radius_m) {
                     // There but for the last steps, or where it is seen from as well: a visit.
-                    self.arrivals.push(Arrival { target, place, decided_at: None });
+                    self.arrivals.push(Arrival { target, place, decided_at: None, is_beside: drive.is_beside });
+                } else if drive.is_beside || !drive.is_stage && pose.distance_to(place) < goal.already_there_m {
+                    // The last steps are not worth more; and what lies beside the way is left as soon as
+                    // something speaks against it: twice, and not for ever.
+                    self.arrivals.push(Arrival {
+                        target: drive.target,
+                        place,
+                        decided_at: None,
+                        is_beside: drive.is_beside,
+                    });
                 } else if decided.is_barred_near(drive.target, goal.commit_radius_m) {
                     // The way there has closed as the robot came. From elsewhere it may seem open
                     // again: without a count the robot would drive to and fro for ever.
