@@ -247,11 +247,14 @@ impl Lookout {
                 // would get through: a nook of which a step nearer shows a little more is not.
                 let nearer_m = |spent_m: f64| (spent_m - SAME_PLACE_M).min(THROUGH_M);
                 let radius_m = a.spent_m.map_or(radius_m, nearer_m);
+                if radius_m <= 0.0 {
+                    return false;
+                }
                 let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
                 // The search counts whole cells.
                 let near_m = radius_m + 0.71 * map.grid.info().resolution_m();
                 let place = widest.as_ref().and_then(|field| standing.goal(field, robot, a.target, &search));
-                radius_m > 0.0 && place.is_some_and(|place| place.distance_to(a.target) <= near_m)
+                place.is_some_and(|place| place.distance_to(a.target) <= near_m)
             };
             barred = weighed.assessed.iter().filter(unreachable).filter(|a| could_see(a)).count();
         }

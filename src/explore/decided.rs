@@ -2,7 +2,7 @@
 
 use super::assess::Assessed;
 use super::blacklist::Taboo;
-use super::record::{CandidateStatus, DecisionRecord, EndReason, LeftBehind, Position};
+use super::record::{CandidateRecord, CandidateStatus, DecisionRecord, EndReason, LeftBehind};
 use crate::geometry::{Point, Pose};
 
 /// Where to go, when there is somewhere.
@@ -51,25 +51,26 @@ impl Decided {
     /// Whether the robot could still be sent to a frontier near a point.
     pub fn is_open_near(&self, target: Point, radius_m: f64) -> bool {
         let is_open = |status| matches!(status, CandidateStatus::Chosen | CandidateStatus::Eligible);
-        let near = |at: Position| nalgebra::distance(&target, &Point::new(at.x, at.y)) <= radius_m;
-        self.record.candidates.iter().any(|c| is_open(c.status) && near(c.target))
+        self.near(target, radius_m).any(|(_, c)| is_open(c.status))
     }
 
     /// The target and the place of a frontier near a point that is best seen from where the
     /// robot stands.
     pub fn seen_from_here(&self, target: Point, radius_m: f64) -> Option<(Point, Point)> {
-        let mut here = self.record.candidates.iter().filter(|c| c.status == CandidateStatus::AlreadyThere);
-        here.find_map(|c| {
-            let seen = Point::new(c.target.x, c.target.y);
-            (nalgebra::distance(&target, &seen) <= radius_m).then_some((seen, c.goal?.position()))
-        })
+        let mut here = self.near(target, radius_m).filter(|(_, c)| c.status == CandidateStatus::AlreadyThere);
+        here.find_map(|(seen, c)| Some((seen, c.goal?.position())))
     }
 
     /// Whether there is a frontier near a point to which no way leads.
     pub fn is_barred_near(&self, target: Point, radius_m: f64) -> bool {
         let is_barred = |status| matches!(status, CandidateStatus::NoPath | CandidateStatus::Unreachable);
-        let near = |at: Position| nalgebra::distance(&target, &Point::new(at.x, at.y)) <= radius_m;
-        self.record.candidates.iter().any(|c| is_barred(c.status) && near(c.target))
+        self.near(target, radius_m).any(|(_, c)| is_barred(c.status))
+    }
+
+    /// The candidates near a point, with their targets.
+    fn near(&self, point: Point, radius_m: f64) -> impl Iterator<Item = (Point, &CandidateRecord)> {
+        let with_target = self.record.candidates.iter().map(|c| (Point::new(c.target.x, c.target.y), c));
+        with_target.filter(move |(target, _)| nalgebra::distance(&point, target) <= radius_m)
     }
 
     /// Why a run ends for which nothing is left to choose. `is_wedged`: the robot has not

@@ -201,8 +201,7 @@ impl Explorer {
         self.end_without_news(now_s);
         let record = self.advance(observation, pose);
         let is_sent = matches!(self.state, State::Driving(_) | State::BackingOff { .. } | State::Returning { .. });
-        let version = self.watch.map().map_or(0, |map| map.version);
-        self.at_rest_since = (!is_sent).then(|| self.at_rest_since.unwrap_or(version));
+        self.at_rest_since = (!is_sent).then(|| self.at_rest_since.unwrap_or(self.watch.version()));
         self.state.decision(record)
     }
 

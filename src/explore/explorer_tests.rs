@@ -3,8 +3,7 @@
 use super::super::state::Phase;
 use super::*;
 use crate::explore::{PatienceSettings, Sight, TurnSettings};
-use crate::geometry::Point;
-use crate::geometry::{Body, Footprint, MotionLimits};
+use crate::geometry::{Body, Footprint, MotionLimits, Point};
 use crate::grid::{Cell, CellState, Inflation, OccupancyGrid, Thresholds};
 use crate::planning::{HybridAstarConfig, PlannerConfig};
 use crate::robot::{Command, Navigation, NavigationState, PoseError};

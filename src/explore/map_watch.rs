@@ -78,6 +78,12 @@ impl MapWatch {
         self.believed.as_ref().map(|believed| &believed.map)
     }
 
+    /// Its version; 0 before the first.
+    #[must_use]
+    pub fn version(&self) -> u64 {
+        self.map().map_or(0, |map| map.version)
+    }
+
     /// The known area of the map that is believed, square metres.
     #[must_use]
     pub fn known_m2(&self) -> f64 {

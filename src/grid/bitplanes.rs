@@ -10,8 +10,8 @@ use std::ops::Range;
 const MOST_TOUCHED: usize = 1 << 18;
 
 /// An occupancy grid as planes. Each cell is in exactly one of three, of which two are
-/// kept: what is neither free nor unknown is occupied, or seen and not
-/// settled.
+/// kept: what is neither free nor unknown is occupied, or seen and
+/// not settled.
 #[derive(Clone, Debug, Default)]
 pub struct BitPlanes {
     free: BitPlane,

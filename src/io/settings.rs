@@ -71,14 +71,19 @@ pub fn file_stem(path: &str) -> String {
     Path::new(path).file_stem().map_or_else(|| path.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
+/// Whether a text is written like the path of a file, and not like a name.
+pub(super) fn is_like_a_path(text: &str) -> bool {
+    let path = Path::new(text);
+    path.extension().is_some() || path.components().count() > 1
+}
+
 /// The text of a file, if the argument looks like one: it exists, or it is written
 /// like a path.
 fn read_if_file(name_or_file: &str) -> Result<Option<String>, SettingsFileError> {
-    let path = Path::new(name_or_file);
-    let is_path = path.extension().is_some() || path.components().count() > 1;
-    if !is_path {
+    if !is_like_a_path(name_or_file) {
         return Ok(None);
     }
+    let path = Path::new(name_or_file);
     if path.is_dir() {
         return Err(SettingsFileError::Directory(path.to_owned()));
     }

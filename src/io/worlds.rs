@@ -2,6 +2,7 @@
 //! runs.
 
 use super::map_load::{load_map, map_from_bytes};
+use super::settings::is_like_a_path;
 use super::{MapError, file_stem};
 use crate::config::hint;
 use crate::grid::OccupancyGrid;
@@ -32,8 +33,7 @@ pub fn load_world(name_or_file: &str) -> Result<(OccupancyGrid, String), MapErro
         Some((name, yaml, image)) => Ok((map_from_bytes(name, yaml, image)?.grid, (*name).to_owned())),
         None => {
             let path = Path::new(name_or_file);
-            let is_word = path.extension().is_none() && path.components().count() == 1;
-            if is_word && !path.exists() {
+            if !is_like_a_path(name_or_file) && !path.exists() {
                 let hint = hint(name_or_file, BUILT_IN_WORLDS.into_iter());
                 let (name, known) = (name_or_file.to_owned(), BUILT_IN_WORLDS.join(", "));
                 return Err(MapError::NoSuchWorld { name, known, hint });

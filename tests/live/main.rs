@@ -96,6 +96,11 @@ fn in_own_process(name: &str) -> Result<(), Failed> {
     Err(format!("{}{}", text(&output.stdout), text(&output.stderr)).into())
 }
 
+/// What a saved map shows by a SLAM that never errs, percent.
+const EXACT: f64 = 99.0;
+/// And by one whose errors move the rim of all that it has seen.
+const DRIFTED: f64 = 97.0;
+
 /// A house, a folder, and a probe on the master.
 struct World {
     folder: PathBuf,
@@ -141,9 +146,8 @@ impl World {
     }
 
     /// The robot has seen at least 99 % of what it can get to, as the simulator says that is
-    /// ended here, and the saved map shows it: all but the rim that the errors of the SLAM's
-    /// poses move.
-    fn expect_explored(&self, sim: &mut Process) {
+    /// ended here, and the saved map shows as much of it as is asked for, percent.
+    fn expect_explored(&self, sim: &mut Process, in_map: f64) {
         sim.signal("TERM");
         sim.expect_code(0, SOON);
         let log = sim.log();
@@ -154,7 +158,7 @@ impl World {
         let house = sim::World::new(&truth, &Default::default()).unwrap();
         let target = TargetArea::new(&house, &Footprint::RadiusM(0.18), &Pose::new(2.0, 1.7, 0.0)).unwrap();
         let saved = 100.0 * target.coverage_of(&saved);
-        assert!(seen >= 99.0 && saved >= 97.0, "{seen} % of the floor seen, {saved} % in the saved map");
+        assert!(seen >= 99.0 && saved >= in_map, "{seen} % of the floor seen, {saved} % in the saved map");
     }
 }
 
@@ -167,7 +171,7 @@ fn explores_a_house(world: &World) {
     assert!(log.contains("complete: "), "{log}");
     assert!(log.contains("from a map to the goal that it led to: median"), "{log}");
     assert!(log.contains("saved "), "{log}");
-    world.expect_explored(&mut sim);
+    world.expect_explored(&mut sim, EXACT);
     assert!(sim.log().contains(" 0 collisions"), "{}", sim.log());
 }
 
@@ -221,7 +225,7 @@ fn lost_transforms(world: &World) {
     explore.expect_log("s old: must be at most 0.5 s", SOON);
     faults.send(StringMessage { data: "none".to_owned() }).unwrap();
     explore.expect_code(0, DEADLINE);
-    world.expect_explored(&mut sim);
+    world.expect_explored(&mut sim, DRIFTED);
 }
 
 fn dead_move_base(world: &World) {
@@ -248,7 +252,7 @@ fn internal_drive(world: &World) {
     let mut explore = world.explore(&["_config:=alghfeli", "_navigation:={drive: internal}"]);
     explore.expect_code(0, DEADLINE);
     assert!(explore.log().contains("goals to our own controller"), "{}", explore.log());
-    world.expect_explored(&mut sim);
+    world.expect_explored(&mut sim, DRIFTED);
 }
 
 fn turn_by_goals(world: &World) {
@@ -256,7 +260,7 @@ fn turn_by_goals(world: &World) {
     let mut sim = world.simulate(&[]);
     let mut explore = world.explore(&["_turn_by:=move_base"]);
     explore.expect_code(0, DEADLINE);
-    world.expect_explored(&mut sim);
+    world.expect_explored(&mut sim, DRIFTED);
     let place = |m: &MoveBaseActionGoal| (m.goal.target_pose.pose.position.x, m.goal.target_pose.pose.position.y);
     let first: Vec<_> = goals.all().iter().take(3).map(place).collect();
     assert!(first.len() == 3 && first.iter().all(|&(x, y)| (x - 2.0).hypot(y - 1.7) < 0.2), "{first:?}");
@@ -325,7 +329,7 @@ fn costmap_of_move_base(world: &World) {
     let topic = "_global_costmap_topic:=move_base/global_costmap/costmap";
     let mut explore = world.explore(&["_config:=northwestern", topic, "_check_with_make_plan:=true"]);
     explore.expect_code(0, DEADLINE);
-    world.expect_explored(&mut sim);
+    world.expect_explored(&mut sim, EXACT);
 }
 
 fn namespace(world: &World) {
@@ -335,7 +339,7 @@ fn namespace(world: &World) {
     let end = status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
     assert_eq!(end.end_reason, "complete");
     explore.expect_code(0, SOON);
-    world.expect_explored(&mut sim);
+    world.expect_explored(&mut sim, EXACT);
 }
 
 fn wrong_parameters(world: &World) {

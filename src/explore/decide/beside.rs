@@ -2,7 +2,7 @@
 //! passed over near by costs a way back from the other end of the building.
 
 use super::super::assess::Assessed;
-use super::{Lookout, SeenFrontier, Situation, Weighed};
+use super::{Choice, Lookout, SeenFrontier, Situation, Weighed};
 use crate::explore::record::CandidateStatus;
 use crate::explore::sight::is_in_sight;
 use crate::frontier::DetectError;
@@ -41,9 +41,6 @@ impl Lookout {
             return Ok(());
         };
         let (robot, info) = (situation.robot, map.grid.info());
-        let way = way.clone();
-        let thresholds = self.thresholds;
-
         let worth_m = limit_m.min(SHARE_OF_WAY * way.length_m());
         let under_way = |target: Point| {
             situation.beside.is_some_and(|beside| nalgebra::distance(&beside, &target) <= settings.commit_radius_m)
@@ -57,7 +54,7 @@ impl Lookout {
             .map(|frontier| surroundings.assess(frontier, standing))
             .filter(|a| a.record.status == CandidateStatus::Eligible)
             .filter_map(|a| Some((a.candidate.as_ref()?.goal, a)))
-            .filter(|(_, a)| under_way(a.target) || leads_away(&way, a.target, &map.grid, &thresholds))
+            .filter(|(_, a)| under_way(a.target) || leads_away(way, a.target, &map.grid, &self.thresholds))
             .collect();
         open.sort_by(|(a, _), (b, _)| robot.distance_to(a.position()).total_cmp(&robot.distance_to(b.position())));
         for (goal, mut beside) in open {
@@ -80,10 +77,8 @@ impl Lookout {
                 let cells = frontier.cells.iter().map(|&cell| info.center(cell)).collect();
                 self.frontiers.push(SeenFrontier { id: beside.record.id, cells });
             }
-            let mut choice = beside.choose(goal, &path, false);
-            choice.is_beside = true;
+            weighed.choice = Some(Choice { is_beside: true, ..beside.choose(goal, &path, false) });
             weighed.assessed.insert(0, beside);
-            weighed.choice = Some(choice);
             self.path = Some(path);
             break;
         }

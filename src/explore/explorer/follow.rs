@@ -97,7 +97,7 @@ impl Explorer {
     /// will do, as the first may have been under way.
     fn count_visits(&mut self, decided: &Decided) {
         let radius_m = self.settings.taboo.radius_m;
-        let version = self.watch.map().map_or(0, |map| map.version);
+        let version = self.watch.version();
         let is_fresh = self.shows_all();
         let shows = |arrival: &mut Arrival| is_fresh || version >= *arrival.decided_at.get_or_insert(version) + 2;
         let shown: Vec<Arrival> = self.arrivals.extract_if(.., shows).collect();
@@ -142,22 +142,17 @@ impl Explorer {
                     return;
                 }
                 let place = drive.goal.position();
-                if let Some((target, place)) = decided.seen_from_here(drive.target, goal.commit_radius_m) {
-                    // There but for the last steps, or where it is seen from as well: a visit.
+                // What lies beside the way is left as soon as something speaks against it: twice, and
+                // not for ever.
+                let is_visit = drive.is_beside || !drive.is_stage && pose.distance_to(place) < goal.already_there_m;
+                let here = decided.seen_from_here(drive.target, goal.commit_radius_m);
+                if let Some((target, place)) = here.or(is_visit.then_some((drive.target, place))) {
+                    // There but for the last steps, or where it is seen from as well.
                     self.arrivals.push(Arrival { target, place, decided_at: None, is_beside: drive.is_beside });
-                } else if drive.is_beside || !drive.is_stage && pose.distance_to(place) < goal.already_there_m {
-                    // The last steps are not worth more; and what lies beside the way is left as soon as
-                    // something speaks against it: twice, and not for ever.
-                    self.arrivals.push(Arrival {
-                        target: drive.target,
-                        place,
-                        decided_at: None,
-                        is_beside: drive.is_beside,
-                    });
                 } else if decided.is_barred_near(drive.target, goal.commit_radius_m) {
                     // The way there has closed as the robot came. From elsewhere it may seem open
                     // again: without a count the robot would drive to and fro for ever.
-                    self.blacklist.record_failure(drive.target, drive.goal.position(), pose.position());
+                    self.blacklist.record_failure(drive.target, place, pose.position());
                     self.notice = Some(format!(
                         "the goal at ({:.2}, {:.2}) m is given up: from here no way leads there",
                         drive.goal.x, drive.goal.y
@@ -227,8 +222,7 @@ impl Explorer {
     /// last motion, or it is the second since the robot came to rest. Where poses jump with every
     /// map, as a SLAM corrects them, none would ever be of after the last motion.
     pub(super) fn shows_all(&self) -> bool {
-        let version = self.watch.map().map_or(0, |map| map.version);
-        self.watch.is_fresh() || self.at_rest_since.is_some_and(|since| version >= since + 2)
+        self.watch.is_fresh() || self.at_rest_since.is_some_and(|since| self.watch.version() >= since + 2)
     }
 
     /// Goes on waiting for a map of after the last motion.
