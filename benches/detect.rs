@@ -20,7 +20,7 @@ mod scenes;
 #[path = "support/table.rs"]
 mod table;
 
-use frontier_explorer::frontier::{Bitplane, DetectionInput, DetectorParams, FrontierDetector, Incremental, Wavefront};
+use frontier_explorer::frontier::{DetectionInput, DetectorParams, FromScratch, FrontierDetector, Repair, Wavefront};
 use frontier_explorer::geometry::Point;
 use frontier_explorer::grid::{Cell, CellRect, OccupancyGrid};
 use frontier_explorer::io::load_map;
@@ -152,10 +152,10 @@ fn measure(scene: &Scene, size: u32) -> Row {
     let changed = with_patch(&scene.grid);
     let patch = CellRect { x: changed.1.x, y: changed.1.y, width: PATCH, height: PATCH };
     let inputs = [&scene.grid, &changed.0].map(|grid| DetectionInput::new(grid, scene.robot));
-    let mut bitplane = Bitplane::new(params);
+    let mut bitplane = FromScratch::new(params);
     let mut textbook = Wavefront::new(params);
     let frontiers = bitplane.detect(&inputs[0]).unwrap();
-    let mut kept = [Incremental::new(params), Incremental::new(params)];
+    let mut kept = [Repair::new(params), Repair::new(params)];
     for kept in &mut kept {
         assert_eq!(kept.update(&inputs[0], None).unwrap().len(), frontiers.len());
         for (input, told) in

@@ -65,7 +65,7 @@ fn main() -> Result<()> {
         }
         println!("publish     {:8.3} ms as {name}", spent.as_secs_f64() * 1e3 / scans.len() as f64);
     }
-    let map = mapper.publish()?;
+    let map = mapper.publish()?.cells;
     let started = Instant::now();
     for _ in 0..20 {
         std::hint::black_box(Costmap::inflate(&map, &Thresholds::default(), &robot.inflation()));

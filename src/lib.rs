@@ -5,6 +5,7 @@
 //! there, and at the end a map_server map is saved. `ARCHITECTURE.md` shows the floors.
 
 pub mod bag;
+pub mod bits;
 pub mod config;
 pub mod control;
 pub mod explore;
@@ -18,8 +19,10 @@ pub mod navigation;
 pub mod planning;
 pub mod range;
 pub mod replay;
+#[cfg(feature = "report")]
 pub mod report;
 pub mod robot;
+#[cfg(feature = "ros")]
 pub mod ros;
 pub mod scan;
 pub mod selection;

@@ -2,7 +2,7 @@
 //! robot behind ROS, a recorded bag (floor 2).
 
 use crate::geometry::Pose;
-use crate::grid::{Costmap, OccupancyGrid};
+use crate::grid::{Changes, Costmap, OccupancyGrid, Snapshot};
 use crate::scan::LaserScan;
 use serde::Serialize;
 use std::sync::Arc;
@@ -12,12 +12,27 @@ use std::sync::Arc;
 pub struct MapSnapshot {
     /// Everything sensed up to this time, in seconds, is in the map.
     pub stamp_s: f64,
-    /// Grows with every map that comes, also with one that looks like the last.
-    pub version: u64,
     /// The occupancy grid.
     pub grid: Arc<OccupancyGrid>,
+    /// The map's version, and what changed since earlier ones. The version grows with every map
+    /// that comes, also with one that looks like the last.
+    pub changes: Changes,
     /// A costmap of the same map, if the robot's navigation already has one.
-    pub costmap: Option<Arc<Costmap>>,
+    pub costmap: Option<Snapshot<Costmap>>,
+}
+
+impl MapSnapshot {
+    /// A map of which nothing earlier is known, without a costmap.
+    #[must_use]
+    pub fn alone(stamp_s: f64, version: u64, grid: Arc<OccupancyGrid>) -> Self {
+        Self { stamp_s, grid, changes: Changes::beginning_at(version), costmap: None }
+    }
+
+    /// Grows with every map that comes, also with one that looks like the last.
+    #[must_use]
+    pub const fn version(&self) -> u64 {
+        self.changes.version()
+    }
 }
 
 /// Why the robot does not know where it is.

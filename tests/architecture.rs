@@ -14,6 +14,7 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
     ("scan", &[&["geometry"]]),
     ("tf", &[&["geometry"]]),
     ("grid", &[&["geometry"]]),
+    ("bits", &[&["geometry", "grid"]]),
     // Floor 1: algorithms, which do not know each other.
     ("frontier", &[FLOOR_0]),
     ("selection", &[FLOOR_0]),
@@ -38,7 +39,7 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
     ("ros", &[FLOOR_0, FLOOR_1, FLOOR_2, &["io", "sim"]]),
 ];
 
-const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid", "tf"];
+const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid", "bits", "tf"];
 const FLOOR_1: &[&str] = &["frontier", "selection", "planning", "control", "matching"];
 const FLOOR_2: &[&str] = &["robot", "navigation", "explore", "config"];
 

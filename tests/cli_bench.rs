@@ -19,7 +19,7 @@ fn every_detector_is_timed_beside_the_byte_sum() {
     let json: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(json["cells"], 420 * 320);
     let names: Vec<_> = json["detectors"].as_array().unwrap().iter().map(|d| d["detector"].clone()).collect();
-    assert!(names.contains(&"wavefront".into()) && names.contains(&"incremental".into()), "{names:?}");
+    assert!(names.contains(&"wavefront".into()) && names.contains(&"bitplane".into()), "{names:?}");
     for times in json["detectors"].as_array().unwrap().iter().chain([&json["byte_sum"]]) {
         let ms = |key: &str| times[key].as_f64().unwrap();
         assert!(0.0 < ms("min_ms") && ms("min_ms") <= ms("median_ms") && ms("median_ms") <= ms("p90_ms"), "{times}");

@@ -49,7 +49,8 @@ fn detect(
         Inflation { inscribed_radius_m: 0.1, clear_radius_m: 0.0, inflation_radius_m: 0.3, cost_scaling_factor: 5.0 };
     let costmap = Costmap::inflate(grid, &thresholds, &inflation);
     let scan = scan();
-    let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&costmap), scan: Some((&robot, &scan)) };
+    let scan = Some((&robot, &scan));
+    let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&costmap), scan, changes: None };
     let found = detector.detect(&input)?;
     let info = grid.info();
     let row_major = |cell: &Cell| (cell.y, cell.x);

@@ -143,7 +143,7 @@ fn cracks_are_no_goals_and_doors_are() {
             let decision = explorer.step(&Observation {
                 stamp_s: 1.0,
                 pose_in_map: Ok(Pose::new(3.0, 2.5, 0.0)),
-                map: Some(MapSnapshot { stamp_s: 1.0, version: 1, grid: Arc::clone(&grid), costmap: None }),
+                map: Some(MapSnapshot::alone(1.0, 1, Arc::clone(&grid))),
                 scan: None,
                 navigation: Navigation { command: 0, state: NavigationState::Idle },
             });

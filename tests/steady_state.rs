@@ -6,7 +6,7 @@
 #[allow(dead_code)] // shared with the benches
 mod scenes;
 
-use frontier_explorer::frontier::{Bitplane, DetectionInput, DetectorParams, Incremental, Reachability};
+use frontier_explorer::frontier::{DetectionInput, DetectorParams, FromScratch, Reachability, Repair};
 use frontier_explorer::grid::{Cell, CellRect, Neighbourhood, OccupancyGrid};
 use frontier_explorer::io::load_map;
 use scenes::Scene;
@@ -47,8 +47,8 @@ fn nothing_is_allocated_in_the_steady_state() {
     for (scene, changed) in maps() {
         let inputs = [&scene.grid, &changed].map(|grid| DetectionInput::new(grid, scene.robot));
         for params in all_params() {
-            let mut bitplane = Bitplane::new(params);
-            let mut kept = Incremental::new(params);
+            let mut bitplane = FromScratch::new(params);
+            let mut kept = Repair::new(params);
             let mut detect_all = || {
                 let mut cells = 0;
                 for input in &inputs {
@@ -73,8 +73,8 @@ fn the_state_is_a_byte_a_cell_at_most() {
     for (scene, changed) in maps() {
         let inputs = [&scene.grid, &changed].map(|grid| DetectionInput::new(grid, scene.robot));
         for params in all_params() {
-            let mut bitplane = Bitplane::new(params);
-            let mut kept = Incremental::new(params);
+            let mut bitplane = FromScratch::new(params);
+            let mut kept = Repair::new(params);
             for input in &inputs {
                 bitplane.detect_cells(input).unwrap();
                 kept.update(input, None).unwrap();
@@ -95,7 +95,7 @@ fn the_account_of_memory_is_what_is_allocated() {
         let mut detectors = None;
         let mut accounted = 0;
         let allocated = allocation_counter::measure(|| {
-            let (mut bitplane, mut kept) = (Bitplane::new(params), Incremental::new(params));
+            let (mut bitplane, mut kept) = (FromScratch::new(params), Repair::new(params));
             let found = bitplane.detect_cells(&input).unwrap().memory_bytes();
             let kept_found = kept.update(&input, None).unwrap().memory_bytes();
             accounted = bitplane.memory_bytes() + found + kept.memory_bytes() + kept_found;

@@ -12,8 +12,8 @@ const LINES: [Line; 5] = [
     ("textbook", RGBColor(150, 60, 160), |row| row.textbook_ms),
     ("bitplane, from scratch", RGBColor(20, 90, 190), |row| row.bitplane_ms),
     ("one pass that sums the bytes", RGBColor(120, 120, 120), |row| row.byte_sum_ms),
-    ("incremental, grid sent again", RGBColor(30, 140, 90), |row| row.resent_ms),
-    ("incremental, 200 x 200 cells told", RGBColor(220, 110, 20), |row| row.patch_ms),
+    ("repaired, grid sent again", RGBColor(30, 140, 90), |row| row.resent_ms),
+    ("repaired, 200 x 200 cells told", RGBColor(220, 110, 20), |row| row.patch_ms),
 ];
 
 /// Draws the office scene's rows.

@@ -1,4 +1,4 @@
-//! What was wrong with a bag.
+//! Counts what was wrong with a bag, by kind.
 
 /// The most problems that are told apart.
 const MAX_PROBLEMS: usize = 20;

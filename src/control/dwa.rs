@@ -30,7 +30,7 @@
 
 use super::dwa_config::DwaConfig;
 use super::outline::Outline;
-use super::progress::PathProgress;
+use super::path_progress::PathProgress;
 use super::surroundings::Surroundings;
 use super::{ControlError, ControlInput, Controller};
 use crate::geometry::{Body, Footprint, MotionLimits, Point, Pose, Twist, shortest_angle};

@@ -5,7 +5,7 @@ mod dwa_config;
 mod guard;
 mod outline;
 mod path_follower;
-mod progress;
+mod path_progress;
 mod surroundings;
 
 pub use dwa::Dwa;

@@ -4,7 +4,7 @@
 //! 1992), with the lookahead point pulled in until the straight line to it is free, so
 //! that corners are not cut into obstacles.
 
-use super::progress::PathProgress;
+use super::path_progress::PathProgress;
 use super::{ControlError, ControlInput, Controller};
 use crate::geometry::{Body, Pose, Twist, shortest_angle};
 use crate::range::OutOfRange;

@@ -30,7 +30,7 @@ pub struct Assessed {
 }
 
 /// What an assessment looks at besides the frontiers.
-pub struct Surroundings<'a> {
+pub struct Assessor<'a> {
     /// The settings.
     pub settings: &'a ExplorerSettings,
     /// The map.
@@ -67,7 +67,7 @@ const OFF_FRONTIER_M: f64 = 0.5;
 /// So many of a frontier's cells are tried where its representative point serves for nothing.
 const OTHER_CELLS: usize = 12;
 
-impl Surroundings<'_> {
+impl Assessor<'_> {
     /// Assesses one frontier.
     pub fn assess(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Assessed {
         let (info, needs) = (self.grid.info(), self.needs);

@@ -12,6 +12,7 @@ use crate::frontier::{
 use crate::geometry::Pose;
 use crate::grid::{Costmap, Inflation, Neighbourhood, OccupancyGrid, Thresholds};
 use crate::planning::{Driven, PathField};
+use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
 /// Looks at the raw map with the textbook's eyes.
@@ -41,8 +42,8 @@ impl Audit {
     ///
     /// # Errors
     /// [`DetectError`] when the map gives no answer.
-    pub fn frontiers(&mut self, grid: &OccupancyGrid, robot: Pose) -> Result<Vec<Frontier>, DetectError> {
-        self.detector.detect(&DetectionInput::new(grid, robot))
+    pub fn frontiers(&mut self, map: &MapSnapshot, robot: Pose) -> Result<Vec<Frontier>, DetectError> {
+        self.detector.detect(&DetectionInput { changes: Some(&map.changes), ..DetectionInput::new(&map.grid, robot) })
     }
 
     /// Where the robot could get to if it needed no room beside its body, neither padding

@@ -14,20 +14,21 @@ mod pause;
 mod recover;
 
 use super::blacklist::Blacklist;
-use super::decide::Lookout;
 use super::ledger::{Ledger, TimeSpent};
+use super::lookout::Lookout;
 use super::map_watch::MapWatch;
-use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontier};
+use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontiers};
 use super::settings::{ExplorerSettings, SettingsError};
 use super::sight::Sights;
 use super::state::{AfterTurn, Decision, State, has_ended};
 use super::traits::RobotTraits;
 use super::trouble::Trouble;
-use crate::geometry::{Path, Polygon, Pose};
+use crate::geometry::{Polygon, Pose};
 use crate::planning::{Driven, GlobalPlanner};
 use crate::robot::{CommandId, MapSnapshot, Observation};
 use follow::Arrival;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// The longest that a turn may take, seconds; then the run goes on without it.
 const TURN_TIMEOUT_S: f64 = 60.0;
@@ -114,7 +115,7 @@ impl Explorer {
 
     /// The frontiers of the last detection.
     #[must_use]
-    pub fn frontiers(&self) -> &[SeenFrontier] {
+    pub fn frontiers(&self) -> &SeenFrontiers {
         self.lookout.frontiers()
     }
 
@@ -126,12 +127,6 @@ impl Explorer {
             State::Returning { goal, .. } => Some(*goal),
             _ => None,
         }
-    }
-
-    /// The way to the goal that was chosen last, as planned then.
-    #[must_use]
-    pub const fn path(&self) -> Option<&Path> {
-        self.lookout.path()
     }
 
     /// Explores only inside a region from now on, or everywhere again.
@@ -156,6 +151,10 @@ impl Explorer {
         let now_s = observation.stamp_s;
         let mut decision = self.tick(observation);
         decision.notice = decision.notice.take().or_else(|| self.notice.take());
+        if decision.record.is_some() {
+            decision.frontiers = Arc::clone(self.lookout.frontiers());
+            decision.path = self.lookout.path().cloned();
+        }
         self.ledger.book(now_s, observation.pose_in_map.as_ref().ok(), decision.phase);
         decision
     }

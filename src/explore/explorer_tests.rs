@@ -83,12 +83,7 @@ impl Teleporter {
         Observation {
             stamp_s: self.stamp_s,
             pose_in_map: Ok(Pose::new(self.pose.x + correction_m, self.pose.y, self.pose.yaw)),
-            map: Some(MapSnapshot {
-                stamp_s: self.stamp_s,
-                version: self.stamp_s as u64,
-                grid: Arc::new(self.map.clone()),
-                costmap: None,
-            }),
+            map: Some(MapSnapshot::alone(self.stamp_s, self.stamp_s as u64, Arc::new(self.map.clone()))),
             scan: None,
             navigation: self.navigation.clone(),
         }

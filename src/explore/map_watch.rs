@@ -6,6 +6,7 @@
 
 use super::sight::Sight;
 use crate::geometry::{Pose, shortest_angle};
+use crate::grid::{CellRect, OccupancyGrid};
 use crate::robot::MapSnapshot;
 
 /// Motion below this is trembling of the pose, metres and radians.
@@ -81,7 +82,7 @@ impl MapWatch {
     /// Its version; 0 before the first.
     #[must_use]
     pub fn version(&self) -> u64 {
-        self.map().map_or(0, |map| map.version)
+        self.map().map_or(0, MapSnapshot::version)
     }
 
     /// The known area of the map that is believed, square metres.
@@ -93,7 +94,7 @@ impl MapWatch {
     /// Whether the map came after the robot last moved so that it sees something new.
     #[must_use]
     pub fn is_fresh(&self) -> bool {
-        self.map().is_some_and(|map| map.version > self.moved_at_version)
+        self.map().is_some_and(|map| map.version() > self.moved_at_version)
     }
 
     /// How long a map has been due, seconds: the robot moved enough for one, and none came.
@@ -110,7 +111,7 @@ impl MapWatch {
     }
 
     fn take(&mut self, map: &MapSnapshot) -> Option<String> {
-        if self.map().is_some_and(|believed| believed.version == map.version) {
+        if self.map().is_some_and(|believed| believed.version() == map.version()) {
             // Its costmap may be a newer one.
             if let Some(believed) = &mut self.believed {
                 believed.map = map.clone();
@@ -118,10 +119,10 @@ impl MapWatch {
             return None;
         }
         // One that is doubted is counted once, and a second one is waited for.
-        if self.doubted.is_some_and(|(version, ..)| version == map.version) {
+        if self.doubted.is_some_and(|(version, ..)| version == map.version()) {
             return None;
         }
-        let known_cells = map.grid.data().iter().filter(|&&value| value >= 0).count();
+        let known_cells = self.count_known(map);
         if let Some(believed) = &self.believed
             && let Some(why) = doubt(believed, map, known_cells)
         {
@@ -130,7 +131,7 @@ impl MapWatch {
                 cells.abs_diff(known_cells) * 10 <= cells.max(known_cells) && resolution == resolution_m
             });
             if !agrees {
-                self.doubted = Some((map.version, known_cells, resolution_m));
+                self.doubted = Some((map.version(), known_cells, resolution_m));
                 return Some(format!("{why}: a second map like it is waited for"));
             }
         }
@@ -140,12 +141,30 @@ impl MapWatch {
         None
     }
 
+    /// How many cells of a map are known: from the last count, where it is told what changed.
+    fn count_known(&self, map: &MapSnapshot) -> usize {
+        let known = |grid: &OccupancyGrid, part: &CellRect| {
+            let (rows, columns) = (part.rows(grid.info()), part.columns(grid.info()));
+            let lines = grid.data().chunks_exact(grid.info().width()).skip(rows.start).take(rows.len());
+            lines.map(|row| row[columns.clone()].iter().filter(|&&value| value >= 0).count()).sum::<usize>()
+        };
+        match &self.believed {
+            Some(Believed { map: last, known_cells }) if last.grid.info() == map.grid.info() => {
+                match map.changes.since(last.version()) {
+                    Some(changed) => known_cells + known(&map.grid, &changed) - known(&last.grid, &changed),
+                    None => known(&map.grid, &CellRect::of(map.grid.info())),
+                }
+            }
+            _ => known(&map.grid, &CellRect::of(map.grid.info())),
+        }
+    }
+
     fn follow(&mut self, pose: &Pose, now_s: f64) {
         let view = *self.view.get_or_insert(*pose);
         if pose.distance_to(view.position()) >= STILL_M || shortest_angle(view.yaw, pose.yaw).abs() >= self.new_view_rad
         {
             self.view = Some(*pose);
-            self.moved_at_version = self.map().map_or(0, |map| map.version);
+            self.moved_at_version = self.map().map_or(0, MapSnapshot::version);
         }
         let anchor = *self.anchor.get_or_insert(*pose);
         let (moved_m, turned_rad) = (pose.distance_to(anchor.position()), shortest_angle(anchor.yaw, pose.yaw).abs());
@@ -175,7 +194,7 @@ fn doubt(believed: &Believed, map: &MapSnapshot, known_cells: usize) -> Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::{GridInfo, OccupancyGrid};
+    use crate::grid::GridInfo;
     use std::sync::Arc;
 
     fn map(version: u64, known: usize, resolution_m: f64) -> MapSnapshot {
@@ -183,7 +202,7 @@ mod tests {
         let data = (0..100).map(|i| if i < known { 0 } else { -1 }).collect();
         // Stamps of today, in which a nanosecond vanishes.
         let grid = Arc::new(OccupancyGrid::new(info, data).unwrap());
-        MapSnapshot { stamp_s: 1.8e9, version, grid, costmap: None }
+        MapSnapshot::alone(1.8e9, version, grid)
     }
 
     fn watch(field_of_view_rad: f64) -> MapWatch {
@@ -191,7 +210,7 @@ mod tests {
     }
 
     fn version(watch: &MapWatch) -> u64 {
-        watch.map().unwrap().version
+        watch.map().unwrap().version()
     }
 
     #[test]

@@ -4,12 +4,12 @@ mod assess;
 mod audit;
 mod behind;
 mod blacklist;
-mod decide;
 mod decided;
 mod explorer;
 mod ledger;
+mod lookout;
 mod map_watch;
-mod progress;
+mod progress_monitor;
 mod record;
 mod run;
 mod settings;
@@ -24,7 +24,7 @@ pub use blacklist::{Blacklist, Taboo, TabooConfig};
 pub use explorer::Explorer;
 pub use ledger::TimeSpent;
 pub use record::{
-    CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position, SeenFrontier,
+    CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position, SeenFrontiers,
 };
 pub use run::{Watcher, run};
 pub use settings::{

@@ -1,6 +1,8 @@
 //! What is written down of a run: every decision with its reasons, and the end.
 
-use crate::geometry::Pose;
+use crate::frontier::Frontier;
+use crate::geometry::{Point, Pose};
+use crate::grid::GridInfo;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -13,19 +15,60 @@ pub struct Position {
     pub y: f64,
 }
 
-impl From<crate::geometry::Point> for Position {
-    fn from(point: crate::geometry::Point) -> Self {
+impl From<Point> for Position {
+    fn from(point: Point) -> Self {
         Self { x: point.x, y: point.y }
     }
 }
 
-/// A frontier of the last detection.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SeenFrontier {
-    /// Stays while the frontier overlaps with what it was.
-    pub id: u64,
-    /// The centres of its cells in metres of the map frame.
-    pub cells: Vec<crate::geometry::Point>,
+/// The frontiers that a decision was made on. Their cells are shared with the detection: who
+/// draws them makes metres of them.
+#[derive(Clone, Debug, Default)]
+pub struct SeenFrontiers {
+    /// Where the cells lie; `None` where nothing has been detected.
+    info: Option<GridInfo>,
+    frontiers: Vec<Frontier>,
+}
+
+impl SeenFrontiers {
+    /// Frontiers of a grid; the id of each stays while it overlaps with what it was.
+    #[must_use]
+    pub const fn new(info: GridInfo, frontiers: Vec<Frontier>) -> Self {
+        Self { info: Some(info), frontiers }
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.frontiers.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.frontiers.is_empty()
+    }
+
+    /// One more frontier of the same grid.
+    pub(super) fn push(&mut self, frontier: Frontier) {
+        self.frontiers.push(frontier);
+    }
+
+    /// The centres of the cells of the frontier with an id, in metres of the map frame; none
+    /// where there is no such frontier.
+    pub fn cells_of(&self, id: u64) -> impl Iterator<Item = Point> {
+        self.centers(self.frontiers.iter().filter(move |frontier| frontier.id == id))
+    }
+
+    /// The centres of the cells of all frontiers, in metres of the map frame.
+    pub fn cells(&self) -> impl Iterator<Item = Point> {
+        self.centers(self.frontiers.iter())
+    }
+
+    fn centers<'a>(&'a self, frontiers: impl Iterator<Item = &'a Frontier>) -> impl Iterator<Item = Point> {
+        let cells = frontiers.flat_map(|frontier| &frontier.cells);
+        cells.filter_map(|&cell| self.info.as_ref().map(|info| info.center(cell)))
+    }
 }
 
 /// What became of one candidate in one decision.

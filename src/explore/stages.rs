@@ -1,4 +1,4 @@
-//! On the way to a goal that a planner cannot plan to in one piece.
+//! Part of the way to a goal that a planner gave up on: a place on the guide's path that it can plan to.
 //!
 //! A planner that gives up after so many expansions says nothing about the goal but that
 //! it is far. When no nearer goal is left, the robot drives a part of the cheapest way

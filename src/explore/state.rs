@@ -1,10 +1,11 @@
 //! The states of the explorer, and what each one tells the robot to do.
 
-use super::progress::ProgressMonitor;
-use super::record::{DecisionRecord, End};
-use crate::geometry::{Point, Pose};
+use super::progress_monitor::ProgressMonitor;
+use super::record::{DecisionRecord, End, SeenFrontiers};
+use crate::geometry::{Path, Point, Pose};
 use crate::robot::{Command, CommandId, NavigationState, Observation};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// What the explorer is about, for status displays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -39,6 +40,10 @@ pub struct Decision {
     pub phase: Phase,
     /// Present when frontiers were weighed in this step.
     pub record: Option<DecisionRecord>,
+    /// The frontiers that were weighed, none where nothing was.
+    pub frontiers: Arc<SeenFrontiers>,
+    /// The way to the goal that was chosen last, as planned then; `None` where nothing was weighed.
+    pub path: Option<Arc<Path>>,
     /// Something that the user should know of: what is waited for, what was passed over.
     pub notice: Option<String>,
     /// Present once the run has ended.
@@ -166,7 +171,7 @@ impl State {
             Self::Ended(end) => Some(end.clone()),
             _ => None,
         };
-        Decision { command, phase, record, notice: None, end }
+        Decision { command, phase, record, frontiers: Arc::default(), path: None, notice: None, end }
     }
 }
 

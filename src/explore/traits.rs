@@ -1,4 +1,4 @@
-//! What the explorer knows of its robot.
+//! What the explorer knows of its robot: body, lidar and inflation.
 
 use super::sight::Sight;
 use crate::geometry::Body;

@@ -25,42 +25,6 @@ impl FrontierId {
     }
 }
 
-/// What became of a frontier.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FrontierEvent {
-    /// It overlaps none of the last map.
-    Appeared(FrontierId),
-    /// It overlaps none of the new map.
-    Vanished(FrontierId),
-    /// It overlaps several of the new map.
-    Split {
-        /// The frontier of the last map.
-        from: FrontierId,
-        /// Those of the new map in their order; one of them may bear its name still.
-        into: Vec<FrontierId>,
-    },
-    /// Several of the last map overlap the same one.
-    Merged {
-        /// Those of the last map in ascending order; names not used in the new map have
-        /// ended here.
-        from: Vec<FrontierId>,
-        /// The frontier of the new map.
-        into: FrontierId,
-    },
-}
-
-/// The names of the frontiers of one detection.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tracked {
-    /// The name of each frontier, in the detection's order.
-    pub ids: Vec<FrontierId>,
-    /// What changed: splits, merges, appearances, then disappearances, each in a fixed order.
-    pub events: Vec<FrontierEvent>,
-    /// The names of the last map that no frontier bears any longer, in ascending order.
-    pub ended: Vec<FrontierId>,
-}
-
 /// The frontiers of the last map with their names.
 #[derive(Clone, Debug, Default)]
 pub struct FrontierTracker {
@@ -91,9 +55,9 @@ impl FrontierTracker {
         Self::default()
     }
 
-    /// Names the frontiers of a new map, whose cells lie in `info`. The map may have
-    /// another size, origin or resolution than the last one.
-    pub fn update(&mut self, frontiers: &[Frontier], info: &GridInfo) -> Tracked {
+    /// The names of the frontiers of a new map, in their order; their cells lie in `info`. The map
+    /// may have another size, origin or resolution than the last one.
+    pub fn update(&mut self, frontiers: &[Frontier], info: &GridInfo) -> Vec<FrontierId> {
         let last = self.last.take();
         let (old_ids, overlaps) =
             last.as_ref().map_or((&[][..], Vec::new()), |last| (&last.ids[..], overlaps(last, frontiers, info)));
@@ -108,10 +72,9 @@ impl FrontierTracker {
                 }
             })
             .collect();
-        let tracked = Tracked { events: events(&overlaps, old_ids, &ids), ended: ended(old_ids, &ids), ids };
         let cells = frontiers.iter().enumerate().flat_map(|(i, f)| f.cells.iter().map(move |&cell| (cell, i)));
-        self.last = Some(Last { info: *info, ids: tracked.ids.clone(), cells: cells.collect() });
-        tracked
+        self.last = Some(Last { info: *info, ids: ids.clone(), cells: cells.collect() });
+        ids
     }
 }
 
@@ -156,13 +119,9 @@ enum Mapping<'a> {
 
 impl<'a> Mapping<'a> {
     fn new(info: &'a GridInfo, lattice: &'a GridInfo) -> Self {
-        let same_yaw = (info.origin_in_map().yaw - lattice.origin_in_map().yaw).abs() < 1e-9;
-        let same_resolution = (info.resolution_m() / lattice.resolution_m() - 1.0).abs() < 1e-9;
-        if same_yaw && same_resolution {
-            let (x, y) = lattice.to_grid_units(info.origin_in_map().position());
-            Self::Shift(x.round() as i32, y.round() as i32)
-        } else {
-            Self::Centre(info, lattice)
+        match lattice.offset_of(info) {
+            Some((x, y)) => Self::Shift(x, y),
+            None => Self::Centre(info, lattice),
         }
     }
 
@@ -188,45 +147,6 @@ fn join(overlaps: &[Overlap], old_count: usize, new_count: usize) -> Vec<Option<
         }
     }
     kept
-}
-
-fn events(overlaps: &[Overlap], old_ids: &[FrontierId], ids: &[FrontierId]) -> Vec<FrontierEvent> {
-    let mut events = Vec::new();
-    for group in overlaps.chunk_by(|a, b| a.old == b.old) {
-        if let [first, _, ..] = group {
-            let into = group.iter().map(|o| ids[o.new]).collect();
-            events.push(FrontierEvent::Split { from: old_ids[first.old], into });
-        }
-    }
-    let mut by_new = overlaps.to_vec();
-    by_new.sort_unstable_by_key(|o| (o.new, old_ids[o.old]));
-    for group in by_new.chunk_by(|a, b| a.new == b.new) {
-        if let [first, _, ..] = group {
-            let from = group.iter().map(|o| old_ids[o.old]).collect();
-            events.push(FrontierEvent::Merged { from, into: ids[first.new] });
-        }
-    }
-    let (mut met_old, mut met_new) = (vec![false; old_ids.len()], vec![false; ids.len()]);
-    for overlap in overlaps {
-        met_old[overlap.old] = true;
-        met_new[overlap.new] = true;
-    }
-    let unmet = |met: &[bool], ids: &[FrontierId]| -> Vec<FrontierId> {
-        let mut unmet: Vec<_> = ids.iter().zip(met).filter(|(_, met)| !**met).map(|(&id, _)| id).collect();
-        unmet.sort_unstable();
-        unmet
-    };
-    events.extend(unmet(&met_new, ids).into_iter().map(FrontierEvent::Appeared));
-    events.extend(unmet(&met_old, old_ids).into_iter().map(FrontierEvent::Vanished));
-    events
-}
-
-fn ended(old_ids: &[FrontierId], ids: &[FrontierId]) -> Vec<FrontierId> {
-    let mut current = ids.to_vec();
-    current.sort_unstable();
-    let mut ended: Vec<_> = old_ids.iter().copied().filter(|id| current.binary_search(id).is_err()).collect();
-    ended.sort_unstable();
-    ended
 }
 
 #[cfg(test)]

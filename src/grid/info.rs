@@ -1,10 +1,15 @@
 //! Where a grid lies in the world: the one place of all cell/world mathematics.
 
-use crate::geometry::{Point, Pose};
+use crate::geometry::{Point, Pose, shortest_angle};
 use serde::{Deserialize, Serialize};
 
 /// The most cells a grid may have: 16384 x 16384.
 pub const MAX_CELLS: u64 = 1 << 28;
+
+/// So far a cell may be off and be the same, as a share of it: origins are computed anew.
+const SAME_CELL: f64 = 1e-3;
+/// So much resolutions (as a share) and rotations (radians) of one lattice may differ.
+const SAME_AXES: f64 = 1e-6;
 
 /// Where in a cell goals lie, from its corner along both axes.
 const GOAL_IN_CELL: f64 = 0.55;
@@ -248,6 +253,18 @@ impl GridInfo {
     #[must_use]
     pub fn goal_point(&self, cell: Cell) -> Point {
         self.from_grid_units(f64::from(cell.x) + GOAL_IN_CELL, f64::from(cell.y) + GOAL_IN_CELL)
+    }
+
+    /// Columns and rows by which the cells of another grid are moved in this one: whole cells of
+    /// the same size along the same axes, whatever the last digits of the origins say. `None`
+    /// when they lie otherwise. The cells need not lie within this grid.
+    #[must_use]
+    pub fn offset_of(&self, other: &Self) -> Option<(i32, i32)> {
+        let is_near = |value: f64| (value - value.round()).abs() < SAME_CELL && value.abs() < f64::from(i32::MAX);
+        let (dx, dy) = self.to_grid_units(other.origin_in_map.position());
+        let same_size = (other.resolution_m / self.resolution_m - 1.0).abs() < SAME_AXES;
+        let same_axes = shortest_angle(other.origin_in_map.yaw, self.origin_in_map.yaw).abs() < SAME_AXES;
+        (same_size && same_axes && is_near(dx) && is_near(dy)).then(|| (dx.round() as i32, dy.round() as i32))
     }
 
     /// A length in metres as a number of cells.

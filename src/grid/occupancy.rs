@@ -114,42 +114,6 @@ impl OccupancyGrid {
     pub fn state_at(&self, point_in_map: Point, thresholds: &Thresholds) -> CellState {
         self.state(self.info.cell_at(point_in_map), thresholds)
     }
-
-    /// How many cells are free, occupied and unknown.
-    #[must_use]
-    pub fn census(&self, thresholds: &Thresholds) -> Census {
-        let mut census = Census::default();
-        for &value in &self.data {
-            match thresholds.classify(value) {
-                CellState::Free => census.free += 1,
-                CellState::Occupied => census.occupied += 1,
-                CellState::Unknown => census.unknown += 1,
-                CellState::Unsettled => census.unsettled += 1,
-            }
-        }
-        census
-    }
-}
-
-/// Numbers of cells by kind of territory.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Census {
-    /// Free cells.
-    pub free: usize,
-    /// Occupied cells.
-    pub occupied: usize,
-    /// Unknown cells.
-    pub unknown: usize,
-    /// Seen cells that are neither free nor occupied.
-    pub unsettled: usize,
-}
-
-impl Census {
-    /// All cells that have been seen.
-    #[must_use]
-    pub const fn known(&self) -> usize {
-        self.free + self.occupied + self.unsettled
-    }
 }
 
 #[cfg(test)]
@@ -163,13 +127,6 @@ mod tests {
         assert_eq!(grid.data(), &[0, 0, -1, 100]);
         assert_eq!(grid.get(Cell::new(1, 1)), Some(100));
         assert_eq!(grid.get(Cell::new(2, 0)), None);
-    }
-
-    #[test]
-    fn the_census_adds_up() {
-        let census = OccupancyGrid::from_ascii("?#.\n...").unwrap().census(&Thresholds::default());
-        assert_eq!((census.free, census.occupied, census.unknown), (4, 1, 1));
-        assert_eq!(census.known(), 5);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A rectangle of new values: `map_msgs/OccupancyGridUpdate`.
 
-use super::{Cell, CellRect, OccupancyGrid};
+use super::{Cell, CellRect, GridInfo, Live, OccupancyGrid, changed_rect};
 
 /// A rectangle of cells, lowest row first, to be laid on a grid.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,37 +54,51 @@ impl OccupancyGrid {
     /// # Errors
     /// [`GridPatchError`] when it does not fit; the grid is then as before.
     pub fn apply(&mut self, patch: &GridPatch) -> Result<(), GridPatchError> {
-        let GridPatch { corner: Cell { x, y }, width, height, .. } = *patch;
-        if u64::from(width) * u64::from(height) != patch.data.len() as u64 {
-            return Err(GridPatchError::Length { width, height, values: patch.data.len() });
+        let rect = patch.place_in(self.info())?;
+        self.lay(patch, &rect);
+        Ok(())
+    }
+
+    /// Writes a patch where it lies.
+    fn lay(&mut self, patch: &GridPatch, rect: &CellRect) {
+        if rect.is_empty() {
+            return;
         }
-        let (grid_width, grid_height) = (self.info().width(), self.info().height());
+        let grid_width = self.info().width();
+        let rows = self.data_mut().chunks_exact_mut(grid_width).skip(rect.y);
+        for (row, new) in rows.zip(patch.data.chunks_exact(rect.width)) {
+            if let Some(part) = row.get_mut(rect.x..rect.x + rect.width) {
+                part.copy_from_slice(new);
+            }
+        }
+    }
+}
+
+impl GridPatch {
+    /// Where it lies in a grid.
+    ///
+    /// # Errors
+    /// [`GridPatchError`] when it does not fit.
+    fn place_in(&self, info: &GridInfo) -> Result<CellRect, GridPatchError> {
+        let Self { corner: Cell { x, y }, width, height, .. } = *self;
+        if u64::from(width) * u64::from(height) != self.data.len() as u64 {
+            return Err(GridPatchError::Length { width, height, values: self.data.len() });
+        }
+        let (grid_width, grid_height) = (info.width(), info.height());
         let fits = |from: i32, length: u32, limit: usize| {
             usize::try_from(from).is_ok_and(|from| from + length as usize <= limit)
         };
         if !(fits(x, width, grid_width) && fits(y, height, grid_height)) {
             return Err(GridPatchError::Outside { x, y, width, height, grid_width, grid_height });
         }
-        if width == 0 {
-            return Ok(());
-        }
-        let (left, bottom, width) = (x as usize, y as usize, width as usize);
-        let rows = self.data_mut().chunks_exact_mut(grid_width).skip(bottom);
-        for (row, new) in rows.zip(patch.data.chunks_exact(width)) {
-            if let Some(part) = row.get_mut(left..left + width) {
-                part.copy_from_slice(new);
-            }
-        }
-        Ok(())
+        Ok(CellRect { x: x as usize, y: y as usize, width: width as usize, height: height as usize })
     }
-}
 
-impl GridPatch {
     /// The smallest rectangle of `new` that holds all in which it differs from `old`, a grid
     /// of the same size; `None` where they are equal.
     #[must_use]
     pub fn difference(old: &OccupancyGrid, new: &OccupancyGrid) -> Option<Self> {
-        let CellRect { x, y, width, height } = new.changed_rect(old)?;
+        let CellRect { x, y, width, height } = changed_rect(old, new)?;
         let rows = new.data().chunks_exact(new.info().width()).skip(y).take(height);
         Some(Self {
             corner: Cell::new(x as i32, y as i32),
@@ -95,20 +109,16 @@ impl GridPatch {
     }
 }
 
-impl OccupancyGrid {
-    /// The smallest rectangle that holds all cells in which an older grid of the same size
-    /// differs; `None` where they are equal.
-    #[must_use]
-    pub fn changed_rect(&self, old: &Self) -> Option<CellRect> {
-        let width = self.info().width();
-        let rows = self.data().chunks_exact(width).zip(old.data().chunks_exact(width)).enumerate();
-        let differs = |(a, b): (&i8, &i8)| a != b;
-        let changed = rows.filter(|(_, (new, old))| new != old).filter_map(|(y, (new, old))| {
-            let cells = || new.iter().zip(old);
-            let (x, last) = (cells().position(differs)?, cells().rposition(differs)?);
-            Some(CellRect { x, y, width: last + 1 - x, height: 1 })
-        });
-        changed.reduce(CellRect::union)
+impl Live<OccupancyGrid> {
+    /// The next version: the newest state with a rectangle of new values laid on it. O(cells of
+    /// the rectangle), where an earlier state is not read any longer.
+    ///
+    /// # Errors
+    /// [`GridPatchError`] when it does not fit; then there is no new version.
+    pub fn apply(&mut self, patch: &GridPatch) -> Result<(), GridPatchError> {
+        let rect = patch.place_in(self.newest().info())?;
+        self.change(rect, |grid| grid.lay(patch, &rect));
+        Ok(())
     }
 }
 

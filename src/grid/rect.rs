@@ -1,6 +1,6 @@
 //! A rectangle of cells.
 
-use super::{GridInfo, WORD_CELLS};
+use super::{Cell, GridInfo};
 use std::ops::Range;
 
 /// The part of a grid that a `map_msgs/OccupancyGridUpdate` covers: from column `x` and
@@ -24,6 +24,13 @@ impl CellRect {
         Self { x: 0, y: 0, width: info.width(), height: info.height() }
     }
 
+    /// A single cell; `None` where its column or row is negative.
+    #[must_use]
+    pub fn of_cell(cell: Cell) -> Option<Self> {
+        let (x, y) = (usize::try_from(cell.x).ok()?, usize::try_from(cell.y).ok()?);
+        Some(Self { x, y, width: 1, height: 1 })
+    }
+
     /// The smallest rectangle that holds this one and another; one without cells counts
     /// for nothing.
     #[must_use]
@@ -35,6 +42,19 @@ impl CellRect {
         let right = (self.x.saturating_add(self.width)).max(other.x.saturating_add(other.width));
         let top = (self.y.saturating_add(self.height)).max(other.y.saturating_add(other.height));
         Self { x, y, width: right - x, height: top - y }
+    }
+
+    /// The same cells by the columns and rows of another grid, in which they lie so many columns
+    /// and rows further on; those outside of it are left out.
+    #[must_use]
+    pub fn moved(self, (dx, dy): (i32, i32), info: &GridInfo) -> Self {
+        let within = |from: usize, length: usize, by: i32, limit: usize| {
+            let clamp = |at: i64| at.clamp(0, limit as i64) as usize;
+            (clamp(from as i64 + i64::from(by)), clamp((from + length) as i64 + i64::from(by)))
+        };
+        let (left, right) = within(self.x, self.width, dx, info.width());
+        let (bottom, top) = within(self.y, self.height, dy, info.height());
+        Self { x: left, y: bottom, width: right - left, height: top - bottom }
     }
 
     /// With so many cells more on every side, as far as there are any.
@@ -65,13 +85,6 @@ impl CellRect {
         let end = self.y.saturating_add(self.height).min(info.height());
         self.y.min(end)..end
     }
-
-    /// The words of a bit plane's rows that hold its columns within a grid.
-    #[must_use]
-    pub fn words(&self, info: &GridInfo) -> Range<usize> {
-        let Range { start, end } = self.columns(info);
-        if start == end { 0..0 } else { start / WORD_CELLS..end.div_ceil(WORD_CELLS) }
-    }
 }
 
 #[cfg(test)]
@@ -80,15 +93,17 @@ mod tests {
     use crate::geometry::Pose;
 
     #[test]
-    fn rows_and_words_stay_within_the_grid() {
+    fn rows_and_columns_stay_within_the_grid() {
         let info = GridInfo::new(130, 20, 1.0, Pose::default()).unwrap();
         let rect = |x, y, width, height| CellRect { x, y, width, height };
-        assert_eq!((CellRect::of(&info).rows(&info), CellRect::of(&info).words(&info)), (0..20, 0..3));
-        assert_eq!((rect(63, 3, 2, 4).rows(&info), rect(63, 3, 2, 4).words(&info)), (3..7, 0..2));
-        assert_eq!((rect(64, 19, 64, 9).rows(&info), rect(64, 19, 64, 9).words(&info)), (19..20, 1..2));
+        assert_eq!(CellRect::of(&info).rows(&info), 0..20);
+        assert_eq!((rect(63, 3, 2, 4).rows(&info), rect(63, 3, 2, 4).columns(&info)), (3..7, 63..65));
+        assert_eq!((rect(64, 19, 99, 9).rows(&info), rect(64, 19, 99, 9).columns(&info)), (19..20, 64..130));
         let far = rect(usize::MAX, usize::MAX, usize::MAX, usize::MAX);
-        assert!(far.rows(&info).is_empty() && far.words(&info).is_empty());
+        assert!(far.rows(&info).is_empty() && far.columns(&info).is_empty());
         assert_eq!(rect(5, 6, 2, 2).union(rect(1, 7, 3, 9)), rect(1, 6, 6, 10));
         assert_eq!(rect(5, 6, 2, 2).union(rect(1, 7, 0, 9)), rect(5, 6, 2, 2));
+        assert_eq!(rect(5, 6, 9, 2).moved((-7, 3), &info), rect(0, 9, 7, 2));
+        assert_eq!(rect(125, 18, 9, 2).moved((3, 5), &info), rect(128, 20, 2, 0));
     }
 }

@@ -102,7 +102,7 @@ impl MapBuilder {
         if let Some(mapper) = &mut self.mapper {
             mapper.integrate(&pose.compose(mount), &cut)?;
             if self.config.is_matching {
-                self.field = Some(LikelihoodField::of(&*mapper.publish()?));
+                self.field = Some(LikelihoodField::of(&mapper.publish()?.cells));
             }
         }
         self.taken += 1;

@@ -12,7 +12,7 @@
 use super::ground::{Ground, ONWARD, ONWARD_FROM_SPACE, survey};
 use super::lattice::{MAX_STEP, STRAIGHT, step_costs};
 use super::search::UNREACHED;
-use crate::grid::{Costmap, UNKNOWN_COST};
+use crate::grid::{CellRect, Costmap, UNKNOWN_COST};
 
 /// A bucket holds the costs that [`STRAIGHT`] steps span: what one of them adds leads to
 /// a later bucket, so that the cells of a bucket can be taken in any order.
@@ -39,11 +39,14 @@ impl Node {
     const CLOSED: Self = Self { way: UNREACHED, cost: UNKNOWN_COST, open: 0, onward: 0, ground: Ground::Rough as u8 };
 }
 
-/// The search with its memory: 8 bytes a cell.
+/// The search with its memory: 8 bytes for each cell of the part that is searched.
 #[derive(Clone, Debug, Default)]
 pub struct CanonicalSearch {
+    /// Columns of the costmap.
     width: usize,
-    /// Cells in a row with the margin.
+    /// The part of it that is searched.
+    part: CellRect,
+    /// Cells in a row of the part with the margin.
     stride: usize,
     /// With a closed margin all round.
     nodes: Vec<Node>,
@@ -51,10 +54,13 @@ pub struct CanonicalSearch {
 }
 
 impl CanonicalSearch {
-    /// Searches everywhere from the cell with a row-major index, which is passable.
-    pub fn run(&mut self, costmap: &Costmap, start: usize) {
+    /// Searches everywhere from the cell with a row-major index, which is passable. All that is
+    /// connected with it must lie in `part`, which costs what it has cells.
+    pub fn run(&mut self, costmap: &Costmap, start: usize, part: &CellRect) {
+        self.width = costmap.info().width();
+        self.part = *part;
         self.prepare(costmap);
-        let start = self.place(start);
+        let Some(start) = self.place(start) else { return };
         let stride = self.stride as isize;
         let offsets = [1, -1, stride, -stride, stride + 1, stride - 1, 1 - stride, -1 - stride];
         let Self { nodes, buckets, .. } = self;
@@ -79,19 +85,19 @@ impl CanonicalSearch {
     /// Cost of the cheapest way to a cell in lattice units, `None` when there is none.
     #[must_use]
     pub fn cost(&self, index: usize) -> Option<u32> {
-        self.nodes.get(self.place(index)).map(|node| node.way).filter(|&way| way != UNREACHED)
+        self.nodes.get(self.place(index)?).map(|node| node.way).filter(|&way| way != UNREACHED)
     }
 
-    /// Where a cell with a row-major index is with the margin.
-    const fn place(&self, index: usize) -> usize {
-        (index / self.width + 1) * self.stride + index % self.width + 1
+    /// Where a cell with a row-major index is in the part with its margin, if it is.
+    fn place(&self, index: usize) -> Option<usize> {
+        let (x, y) = ((index % self.width).checked_sub(self.part.x)?, (index / self.width).checked_sub(self.part.y)?);
+        (x < self.part.width && y < self.part.height).then(|| (y + 1) * self.stride + x + 1)
     }
 
     /// Lays out the costs with a margin and finds out which steps are open.
     fn prepare(&mut self, costmap: &Costmap) {
-        let (width, height) = (costmap.info().width(), costmap.info().height());
+        let CellRect { x, y, width, height } = self.part;
         let stride = width + 2;
-        self.width = width;
         self.stride = stride;
         self.buckets.iter_mut().for_each(Vec::clear);
         self.nodes.clear();
@@ -100,7 +106,7 @@ impl CanonicalSearch {
         let closed_row = vec![UNKNOWN_COST; stride];
         // The rows below, at and above the one in hand, with their margins.
         let mut rows = [closed_row.clone(), closed_row.clone(), closed_row.clone()];
-        let mut next = costmap.costs().chunks_exact(width);
+        let mut next = costmap.costs().chunks_exact(self.width).skip(y).take(height).map(|row| &row[x..x + width]);
         let mut take = |row: &mut [u8]| match next.next() {
             Some(costs) => row[1..=width].copy_from_slice(costs),
             None => row.fill(UNKNOWN_COST),
@@ -157,13 +163,15 @@ mod tests {
     use crate::geometry::Pose;
     use crate::grid::{GridInfo, Inflation, OccupancyGrid, Thresholds};
     use crate::planning::lattice::Lattice;
+    use crate::planning::reach::{connected, passable};
     use crate::planning::search::Search;
     use proptest::prelude::*;
 
     fn costs_are_those_of_the_plain_search(costmap: &Costmap, start: usize) {
         let (mut plain, mut canonical) = (Search::default(), CanonicalSearch::default());
         plain.run(&Lattice::new(costmap), start, None, false);
-        canonical.run(costmap, start);
+        let reach = connected(&passable(costmap), start);
+        canonical.run(costmap, start, &reach.bounds());
         for index in 0..costmap.info().len() {
             assert_eq!(canonical.cost(index), plain.cost(index), "{:?}", costmap.info().cell(index));
         }

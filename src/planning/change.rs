@@ -1,19 +1,11 @@
 //! What changed between two costmaps of one place, for a search that is kept between them.
 
-use crate::geometry::shortest_angle;
 use crate::grid::{Cell, GridInfo, INSCRIBED_COST};
 
 /// Columns and rows by which the old cells moved in a new grid that holds them all;
 /// `None` when it does not.
 pub fn growth(old: &GridInfo, new: &GridInfo) -> Option<(i32, i32)> {
-    let near = |value: f64| (value - value.round()).abs() < 1e-3;
-    let (dx, dy) = new.to_grid_units(old.origin_in_map().position());
-    let same_cells = (old.resolution_m() / new.resolution_m() - 1.0).abs() < 1e-6
-        && shortest_angle(old.origin_in_map().yaw, new.origin_in_map().yaw).abs() < 1e-6;
-    if !(same_cells && near(dx) && near(dy)) {
-        return None;
-    }
-    let shift = (dx.round() as i32, dy.round() as i32);
+    let shift = new.offset_of(old)?;
     let last = Cell::new(old.width() as i32 - 1, old.height() as i32 - 1);
     let holds = |cell: Cell| new.contains(cell.offset(shift));
     (holds(Cell::new(0, 0)) && holds(last)).then_some(shift)

@@ -12,7 +12,10 @@
 
 use super::endpoints::ESCAPE_RADIUS_M;
 use crate::geometry::{Point, Pose};
-use crate::grid::{Cell, Costmap, INSCRIBED_COST, LETHAL_COST, NARROW_COST, Neighbourhood, UNKNOWN_COST, traverse};
+use crate::grid::{
+    Cell, CellRect, CellValues, Changes, Costmap, INSCRIBED_COST, LETHAL_COST, Live, NARROW_COST, Neighbourhood,
+    Snapshot, UNKNOWN_COST, traverse,
+};
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
 
@@ -56,6 +59,12 @@ impl Driven {
     /// nothing has closed in on it.
     #[must_use]
     pub fn open(&self, costmap: &Arc<Costmap>, robot: &Pose) -> Arc<Costmap> {
+        let opened = self.opened(costmap, robot);
+        if opened.is_empty() { Arc::clone(costmap) } else { Arc::new(costmap.with_costs(&opened)) }
+    }
+
+    /// The cells that have other costs for this robot, which stands at a pose, and these costs.
+    fn opened(&self, costmap: &Costmap, robot: &Pose) -> HashMap<Cell, u8> {
         let mut opened: HashMap<Cell, u8> = HashMap::new();
         for (from, to) in &self.legs {
             // Most legs lie in the open.
@@ -73,7 +82,63 @@ impl Driven {
         let cost = |cell: Cell| opened.get(&cell).copied().unwrap_or_else(|| costmap.cost(cell));
         let out = way_out(costmap, own, cost);
         opened.extend(out.into_iter().map(|cell| (cell, NARROW_COST)));
-        if opened.is_empty() { Arc::clone(costmap) } else { Arc::new(costmap.with_costs(&opened)) }
+        opened
+    }
+}
+
+/// Costmaps as they are for a robot that came from where it came, kept from one version to the
+/// next.
+#[derive(Clone, Debug, Default)]
+pub struct Opened {
+    /// The version of the costs that are known.
+    version: Option<u64>,
+    opened: HashMap<Cell, u8>,
+    made: Option<Live<Costmap>>,
+    /// Its versions: a cell that was opened may be closed again where the costs stay the same.
+    changes: Changes,
+}
+
+impl Opened {
+    /// The costmap as [`Driven::open`] gives it. O(places driven through, cells that changed).
+    pub fn update(&mut self, driven: &Driven, costs: &Snapshot<Costmap>, robot: &Pose) -> Snapshot<Costmap> {
+        let info = costs.cells.info();
+        let opened = driven.opened(&costs.cells, robot);
+        let since = self.version.and_then(|version| costs.changes.since(version));
+        self.version = Some(costs.changes.version());
+        let last = std::mem::replace(&mut self.opened, opened);
+        self.changes = match since {
+            Some(changed) => {
+                let other = |a: &HashMap<Cell, u8>, b: &HashMap<Cell, u8>| {
+                    let differ = a.iter().filter(|(cell, cost)| b.get(cell) != Some(cost));
+                    differ.filter_map(|(&cell, _)| CellRect::of_cell(cell)).fold(CellRect::default(), CellRect::union)
+                };
+                let changed = changed.union(other(&last, &self.opened)).union(other(&self.opened, &last));
+                if changed.is_empty() { self.changes.clone() } else { self.changes.then(changed) }
+            }
+            None => self.changes.then_all(),
+        };
+        if self.opened.is_empty() {
+            self.made = None;
+            return Snapshot { cells: Arc::clone(&costs.cells), changes: self.changes.clone() };
+        }
+        let changed = self.changes.since(self.changes.version() - 1);
+        match (&mut self.made, changed) {
+            (Some(made), Some(changed)) if made.newest().info() == info => {
+                if made.version() != self.changes.version() {
+                    let opened = &self.opened;
+                    made.change(changed, |cells| {
+                        cells.copy_rect(&costs.cells, &changed);
+                        cells.set_costs(opened);
+                    });
+                }
+            }
+            (made, _) => {
+                let cells = Arc::new(costs.cells.with_costs(&self.opened));
+                *made = Some(Live::beginning_at(self.changes.version(), cells));
+            }
+        }
+        let cells = self.made.as_ref().map_or(&costs.cells, Live::newest);
+        Snapshot { cells: Arc::clone(cells), changes: self.changes.clone() }
     }
 }
 

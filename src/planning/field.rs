@@ -4,9 +4,10 @@ use super::PlanError;
 use super::canonical::CanonicalSearch;
 use super::endpoints::start_index;
 use super::lattice::STRAIGHT;
-use super::reach::connected;
+use super::reach::{connected, passable};
+use crate::bits::BitPlane;
 use crate::geometry::Pose;
-use crate::grid::{BitPlane, Cell, Costmap};
+use crate::grid::{Cell, Costmap};
 use std::sync::Arc;
 
 /// Where the robot can get to, and if asked for the cheapest way to every cell of it: one
@@ -25,12 +26,8 @@ impl PathField {
     /// # Errors
     /// [`PlanError::StartOutsideMap`] or [`PlanError::StartOccupied`].
     pub fn new(costmap: Arc<Costmap>, robot_in_map: &Pose) -> Result<Self, PlanError> {
-        let start = start_index(&costmap, robot_in_map)?;
-        let mut field = Self::reach_only(costmap, robot_in_map)?;
-        let mut ways = CanonicalSearch::default();
-        ways.run(&field.costmap, start);
-        field.ways = Some(ways);
-        Ok(field)
+        let passable = passable(&costmap);
+        Self::on(costmap, &passable, robot_in_map, true)
     }
 
     /// Finds out which cells can be reached and no more, which is many times faster.
@@ -38,9 +35,29 @@ impl PathField {
     /// # Errors
     /// As [`Self::new`].
     pub fn reach_only(costmap: Arc<Costmap>, robot_in_map: &Pose) -> Result<Self, PlanError> {
+        let passable = passable(&costmap);
+        Self::on(costmap, &passable, robot_in_map, false)
+    }
+
+    /// The same where the passable cells of the costmap are known, as by
+    /// [`Passable`](super::Passable); with or without the ways.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn on(
+        costmap: Arc<Costmap>,
+        passable: &BitPlane,
+        robot_in_map: &Pose,
+        with_ways: bool,
+    ) -> Result<Self, PlanError> {
         let start = start_index(&costmap, robot_in_map)?;
-        let reach = connected(&costmap, start);
-        Ok(Self { costmap, reach, ways: None })
+        let reach = connected(passable, start);
+        let ways = with_ways.then(|| {
+            let mut ways = CanonicalSearch::default();
+            ways.run(&costmap, start, &reach.bounds());
+            ways
+        });
+        Ok(Self { costmap, reach, ways })
     }
 
     /// The costmap that was searched.

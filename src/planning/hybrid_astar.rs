@@ -26,7 +26,7 @@
 use super::endpoints::{goal_index, start_index};
 use super::hybrid_search::{Outcome, Primitive, Task, search};
 use super::lattice::{Lattice, STRAIGHT};
-use super::reach::connected;
+use super::reach::{connected, passable};
 use super::search::Search;
 use super::swept::Swept;
 use super::{GlobalPlanner, Path, PlanError};
@@ -166,7 +166,7 @@ impl GlobalPlanner for HybridAstar {
         let start = start_index(costmap, start_in_map)?;
         let goal = goal_index(costmap, goal_in_map)?;
         let has_way = match self.config.heuristic {
-            HybridHeuristic::Euclidean => connected(costmap, start).contains(info.cell(goal)),
+            HybridHeuristic::Euclidean => connected(&passable(costmap), start).contains(info.cell(goal)),
             HybridHeuristic::Grid => self.grid_search.run(&Lattice::new(costmap), goal, Some(start), false),
         };
         if !has_way {

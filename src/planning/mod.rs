@@ -22,10 +22,11 @@ pub use astar::Astar;
 pub use breadth_first::{BreadthFirst, BreadthFirstConfig};
 pub use d_star_lite::DStarLite;
 pub use dijkstra::Dijkstra;
-pub use driven::Driven;
+pub use driven::{Driven, Opened};
 pub use endpoints::ESCAPE_RADIUS_M;
 pub use field::PathField;
 pub use hybrid_astar::{HybridAstar, HybridAstarConfig, HybridHeuristic};
+pub use reach::Passable;
 
 pub use crate::geometry::Path;
 

@@ -1,14 +1,47 @@
 //! Which cells the robot can get to, without the ways.
 
-use crate::grid::{BitPlane, Costmap, INSCRIBED_COST};
+use crate::bits::BitPlane;
+use crate::grid::{CellRect, Costmap, INSCRIBED_COST, Snapshot};
 
-/// The passable cells connected with `start` along their sides: row by row, one run of
-/// cells at a time (A. R. Smith, "Tint fill", SIGGRAPH 1979), on a plane of bits. A
+/// The cells that the robot's centre may be in, kept from one version of a costmap to the next.
+#[derive(Clone, Debug, Default)]
+pub struct Passable {
+    /// The version that is known.
+    version: Option<u64>,
+    plane: BitPlane,
+}
+
+impl Passable {
+    /// The passable cells of a costmap. O(cells that changed since the last call) where that is
+    /// known.
+    pub fn update(&mut self, costs: &Snapshot<Costmap>) -> &BitPlane {
+        let info = costs.cells.info();
+        let is_known = (self.plane.width(), self.plane.height()) == (info.width(), info.height());
+        let since = self.version.filter(|_| is_known).and_then(|version| costs.changes.since(version));
+        self.plane.resize(info.width(), info.height());
+        let changed = since.unwrap_or_else(|| CellRect::of(info));
+        self.plane.set_values(&changed, costs.cells.costs(), is_passable);
+        self.version = Some(costs.changes.version());
+        &self.plane
+    }
+}
+
+/// All passable cells of a costmap. O(cells).
+pub fn passable(costmap: &Costmap) -> BitPlane {
+    BitPlane::of_values(costmap.info().width(), costmap.costs(), is_passable)
+}
+
+const fn is_passable(cost: u8) -> bool {
+    cost < INSCRIBED_COST
+}
+
+/// The passable cells connected with the one of a row-major index along their sides: row by row,
+/// one run of cells at a time (A. R. Smith, "Tint fill", SIGGRAPH 1979), on a plane of bits. A
 /// diagonal step of the lattice needs both cells beside it, so these are the cells that
-/// the lattice reaches. O(cells) to read the costs, and a small part of it for the rest.
-pub fn connected(costmap: &Costmap, start: usize) -> BitPlane {
-    let (width, height) = (costmap.info().width(), costmap.info().height());
-    let mut open = BitPlane::of_values(width, costmap.costs(), |cost| cost < INSCRIBED_COST);
+/// the lattice reaches. O(words of the plane + runs reached).
+pub fn connected(passable: &BitPlane, start: usize) -> BitPlane {
+    let (width, height) = (passable.width(), passable.height());
+    let mut open = passable.clone();
     let mut reached = open.clone();
     let mut seeds = vec![(start % width, start / width)];
     while let Some((x, y)) = seeds.pop() {
@@ -66,7 +99,7 @@ mod tests {
                     }
                 }
             }
-            let reached = connected(&costmap, start);
+            let reached = connected(&passable(&costmap), start);
             prop_assert_eq!(reached.count(), flood.len());
             prop_assert!(flood.iter().all(|&cell| reached.contains(cell)));
         }

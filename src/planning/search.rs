@@ -20,11 +20,14 @@ pub struct Search {
     queue: BucketQueue,
     cost: Vec<u32>,
     came_by: Vec<u8>,
+    /// The cells that were reached, to be cleared before the next search: a short way on a large
+    /// map costs what it passes and not what the map has.
+    reached: Vec<u32>,
 }
 
 impl Default for Search {
     fn default() -> Self {
-        Self { queue: BucketQueue::new(2 * MAX_STEP), cost: Vec::new(), came_by: Vec::new() }
+        Self { queue: BucketQueue::new(2 * MAX_STEP), cost: Vec::new(), came_by: Vec::new(), reached: Vec::new() }
     }
 }
 
@@ -33,15 +36,13 @@ impl Search {
     /// Returns whether the goal was reached (true without one).
     pub fn run(&mut self, lattice: &Lattice<'_>, start: usize, goal: Option<usize>, heuristic: bool) -> bool {
         self.queue.clear();
-        self.cost.clear();
-        self.cost.resize(lattice.len(), UNREACHED);
-        self.came_by.clear();
-        self.came_by.resize(lattice.len(), NO_DIRECTION);
+        self.clear(lattice.len());
         let estimate = |index: usize| match goal {
             Some(goal) if heuristic => lattice.octile(index, goal),
             _ => 0,
         };
         self.cost[start] = 0;
+        self.reached.push(start as u32);
         self.queue.push(estimate(start), start as u32);
         while let Some((key, item)) = self.queue.pop() {
             let index = item as usize;
@@ -53,12 +54,15 @@ impl Search {
             if goal == Some(index) {
                 return true;
             }
-            let (costs, came_by, queue) = (&mut self.cost, &mut self.came_by, &mut self.queue);
+            let Self { cost: costs, came_by, queue, reached } = self;
             // The cells beside the step just taken are nearer to the cell before.
             let onward = ONWARD_ROUGH.get(usize::from(came_by[index])).copied().unwrap_or(ALL_DIRECTIONS);
             lattice.for_each_step_among(onward, index, |step| {
                 let through_here = cost + step.cost;
                 if through_here < costs[step.to] {
+                    if costs[step.to] == UNREACHED {
+                        reached.push(step.to as u32);
+                    }
                     costs[step.to] = through_here;
                     came_by[step.to] = step.direction;
                     queue.push(through_here + estimate(step.to), step.to as u32);
@@ -66,6 +70,15 @@ impl Search {
             });
         }
         goal.is_none()
+    }
+
+    /// Nothing is reached, of so many cells.
+    fn clear(&mut self, cells: usize) {
+        for index in self.reached.drain(..).map(|index| index as usize) {
+            (self.cost[index], self.came_by[index]) = (UNREACHED, NO_DIRECTION);
+        }
+        self.cost.resize(cells, UNREACHED);
+        self.came_by.resize(cells, NO_DIRECTION);
     }
 
     /// Cost of the cheapest way to a cell in lattice units, `None` when not reached.

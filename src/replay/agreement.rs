@@ -151,9 +151,8 @@ impl Agreement {
     fn see(&mut self, goals: &RecordedGoals, explorer: &Explorer) {
         let driven = goals.all().iter().filter(|goal| !goal.is_turn);
         for goal in driven.skip(self.recorded_goals.len()) {
-            let cells = explorer.frontiers().iter().flat_map(|frontier| &frontier.cells);
-            let distance_m = |point: &Point| goal.goal_in_map.distance_to(*point);
-            let frontier_m = cells.map(distance_m).min_by(f64::total_cmp);
+            let distance_m = |point: Point| goal.goal_in_map.distance_to(point);
+            let frontier_m = explorer.frontiers().cells().map(distance_m).min_by(f64::total_cmp);
             self.recorded_goals.push(RecordedSight { goal: goal.clone(), frontier_m });
         }
     }

@@ -9,7 +9,7 @@ use super::scans::{ScanMapping, on_robot};
 use super::told::Told;
 use crate::bag::{BagError, Nanos, Playback, PlayedMessage, ScanMessage, StampedPose, Summary, nanos, seconds};
 use crate::geometry::Pose;
-use crate::grid::OccupancyGrid;
+use crate::grid::{Live, OccupancyGrid};
 use crate::mapping::{BuilderConfig, MapperError};
 use crate::robot::{MapSnapshot, PoseError};
 use crate::scan::LaserScan;
@@ -42,7 +42,8 @@ pub struct Player<R> {
     begin_s: f64,
     inputs: Inputs,
     frames: Frames,
-    map: Option<MapSnapshot>,
+    /// The newest map with its stamp, seconds.
+    map: Option<(f64, Live<OccupancyGrid>)>,
     scan: Option<ScanMessage>,
     goals: RecordedGoals,
     /// Makes the map where the recording has none.
@@ -143,20 +144,14 @@ impl<R: Read + Seek> Player<R> {
             }
             Told::Map(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
-                self.map = Some(MapSnapshot {
-                    stamp_s,
-                    version: self.next_version(),
-                    grid: Arc::new(message.grid),
-                    costmap: None,
-                });
+                self.take_map(stamp_s, message.grid);
             }
             Told::Patch(message) => {
                 let stamp_s = self.stamp_s(message.header.stamp, time_s);
-                if let Some(map) = &mut self.map {
-                    map.stamp_s = stamp_s;
-                    map.version += 1;
-                    if let Err(error) = Arc::make_mut(&mut map.grid).apply(&message.patch) {
-                        self.faults.count(topic, error);
+                if let Some((map_s, map)) = &mut self.map {
+                    match map.apply(&message.patch) {
+                        Ok(()) => *map_s = stamp_s,
+                        Err(error) => self.faults.count(topic, error),
                     }
                 }
             }
@@ -177,9 +172,15 @@ impl<R: Read + Seek> Player<R> {
         seconds(time) - self.begin_s
     }
 
-    /// The version of a map that comes now.
-    fn next_version(&self) -> u64 {
-        self.map.as_ref().map_or(1, |map| map.version + 1)
+    /// A whole map comes.
+    fn take_map(&mut self, stamp_s: f64, grid: OccupancyGrid) {
+        match &mut self.map {
+            Some((map_s, map)) => {
+                *map_s = stamp_s;
+                map.replace(Arc::new(grid));
+            }
+            None => self.map = Some((stamp_s, Live::new(Arc::new(grid)))),
+        }
     }
 
     /// Keeps a scan, and takes it into the map that is made here.
@@ -205,13 +206,12 @@ impl<R: Read + Seek> Player<R> {
 
     /// Shows the map that is made here, if it grew and its time has come.
     fn show_mapped(&mut self, taken: usize, time_s: f64) {
-        let is_due = self.map.as_ref().is_none_or(|map| time_s - map.stamp_s >= MAP_PERIOD_S);
+        let is_due = self.map.as_ref().is_none_or(|(map_s, _)| time_s - map_s >= MAP_PERIOD_S);
         if taken > 0
             && is_due
             && let Some(grid) = self.mapping.as_ref().and_then(ScanMapping::map)
         {
-            let version = self.next_version();
-            self.map = Some(MapSnapshot { stamp_s: time_s, version, grid: Arc::new(grid), costmap: None });
+            self.take_map(time_s, grid);
         }
     }
 
@@ -249,14 +249,16 @@ impl<R: Read + Seek> Player<R> {
 
     /// The newest map.
     #[must_use]
-    pub const fn map(&self) -> Option<&MapSnapshot> {
-        self.map.as_ref()
+    pub fn map(&self) -> Option<MapSnapshot> {
+        let (stamp_s, map) = self.map.as_ref()?;
+        let (grid, changes) = (Arc::clone(map.newest()), map.changes().clone());
+        Some(MapSnapshot { stamp_s: *stamp_s, grid, changes, costmap: None })
     }
 
     /// The map so far, for who wants to change nothing.
     #[must_use]
     pub fn grid(&self) -> Option<&Arc<OccupancyGrid>> {
-        self.map.as_ref().map(|map| &map.grid)
+        self.map.as_ref().map(|(_, map)| map.newest())
     }
 
     /// The goals of the recording so far.

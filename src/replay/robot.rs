@@ -154,7 +154,7 @@ impl<R: Read + Seek> BagRobot<R> {
             Err(error) => self.no_pose = Some(error.clone()),
         }
         let scan = pose_in_map.as_ref().ok().and_then(|pose| self.player.scan(pose));
-        let (map, navigation) = (self.player.map().cloned(), self.navigation());
+        let (map, navigation) = (self.player.map(), self.navigation());
         Ok(Observation { stamp_s: now_s, pose_in_map, map, scan, navigation })
     }
 

@@ -9,7 +9,8 @@ use super::log::Level;
 use super::msg::map_msgs::OccupancyGridUpdate;
 use super::msg::nav_msgs::OccupancyGrid as MapMessage;
 use super::node::Node;
-use crate::grid::OccupancyGrid;
+use crate::grid::{Changes, Live, OccupancyGrid};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -27,29 +28,64 @@ const OLDEST_STAMP_S: f64 = 30.0;
 pub struct ReceivedMap {
     /// The map, with all updates since.
     pub grid: Arc<OccupancyGrid>,
+    /// Its version, which grows with every change, and what changed.
+    pub changes: Changes,
     /// The frame that it is in.
     pub frame: String,
     /// Everything sensed up to this time is in it, seconds of ROS time.
     pub stamp_s: f64,
     /// When it came, for the latency from here to a goal.
     pub arrived: Instant,
-    /// Grows with every change.
-    pub version: u64,
+}
+
+/// What has come of a map so far.
+struct KeptMap {
+    live: Live<OccupancyGrid>,
+    frame: String,
+    stamp_s: f64,
+    arrived: Instant,
+}
+
+impl KeptMap {
+    fn received(&self) -> ReceivedMap {
+        ReceivedMap {
+            grid: Arc::clone(self.live.newest()),
+            changes: self.live.changes().clone(),
+            frame: self.frame.clone(),
+            stamp_s: self.stamp_s,
+            arrived: self.arrived,
+        }
+    }
+}
+
+/// What those who write the map know of it, and what those who read it see. To lay an update on a
+/// large map takes its time: nobody who reads waits for it.
+#[derive(Default)]
+struct Shared {
+    kept: Mutex<Kept>,
+    newest: Mutex<Option<ReceivedMap>>,
+    /// An update was lost: the whole map is needed again.
+    has_gap: AtomicBool,
 }
 
 #[derive(Default)]
-struct State {
-    map: Option<ReceivedMap>,
+struct Kept {
+    map: Option<KeptMap>,
     last_update_seq: Option<u32>,
-    /// An update was lost: the whole map is needed again.
-    has_gap: bool,
+}
+
+impl Shared {
+    /// Shows the readers what is kept now.
+    fn show(&self, kept: &Kept) {
+        *lock(&self.newest) = kept.map.as_ref().map(KeptMap::received);
+    }
 }
 
 /// A map and its updates, listened to until this is dropped.
 pub struct MapFeed {
     node: Node,
     topic: String,
-    state: Arc<Mutex<State>>,
+    state: Arc<Shared>,
     bell: Arc<Bell>,
     feed: Feed,
     _updates: Option<Feed>,
@@ -59,7 +95,7 @@ impl MapFeed {
     /// Begins to listen; rings the bell for every change.
     #[must_use]
     pub fn listen(node: &Node, topic: &str, updates_topic: &str, bell: &Arc<Bell>) -> Self {
-        let state = Arc::<Mutex<State>>::default();
+        let state = Arc::<Shared>::default();
         let updates = (!updates_topic.is_empty()).then(|| listen_to_updates(node, updates_topic, &state, bell));
         let feed = listen_to_maps(node, topic, &state, bell);
         Self { node: node.clone(), topic: topic.to_owned(), state, bell: Arc::clone(bell), feed, _updates: updates }
@@ -67,11 +103,8 @@ impl MapFeed {
 
     /// The newest map; after a lost update, asks for the whole map again.
     pub fn newest(&mut self) -> Option<ReceivedMap> {
-        let (map, has_gap) = {
-            let mut state = lock(&self.state);
-            (state.map.clone(), std::mem::take(&mut state.has_gap))
-        };
-        if has_gap {
+        let map = lock(&self.state.newest).clone();
+        if self.state.has_gap.swap(false, Ordering::Relaxed) {
             self.node
                 .log()
                 .once(Level::Warn, format_args!("an update of {} was lost: asking for all of it", self.topic));
@@ -90,7 +123,7 @@ impl MapFeed {
     /// that `parameter` names, and which topics with maps there are instead.
     #[must_use]
     pub fn missing(&self, node: &Node, parameter: &str, waited_s: f64) -> Option<String> {
-        if lock(&self.state).map.is_some() {
+        if lock(&self.state.newest).is_some() {
             return None;
         }
         let topic = node.full_name(&self.topic);
@@ -109,17 +142,17 @@ impl MapFeed {
 
 /// Reads the newest map of a feed.
 #[derive(Clone)]
-pub struct MapReader(Arc<Mutex<State>>);
+pub struct MapReader(Arc<Shared>);
 
 impl MapReader {
     /// The newest map, if one came.
     #[must_use]
     pub fn newest(&self) -> Option<ReceivedMap> {
-        lock(&self.0).map.clone()
+        lock(&self.0.newest).clone()
     }
 }
 
-fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Mutex<State>>, bell: &Arc<Bell>) -> Feed {
+fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell>) -> Feed {
     let (state, bell, owner, name) = (Arc::clone(state), Arc::clone(bell), node.clone(), topic.to_owned());
     node.listen(topic, 2, SILENCE, move |message: MapMessage, caller| {
         let arrived = Instant::now();
@@ -127,10 +160,17 @@ fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Mutex<State>>, bell: &Ar
         let frame = message.header.frame_id.clone();
         match convert::grid(message) {
             Ok(grid) => {
-                let mut state = lock(&state);
-                let version = state.map.as_ref().map_or(1, |map| map.version + 1);
-                state.map = Some(ReceivedMap { grid: Arc::new(grid), frame, stamp_s, arrived, version });
-                drop(state);
+                let mut kept = lock(&state.kept);
+                let live = match kept.map.take() {
+                    Some(KeptMap { mut live, .. }) => {
+                        live.replace(Arc::new(grid));
+                        live
+                    }
+                    None => Live::new(Arc::new(grid)),
+                };
+                kept.map = Some(KeptMap { live, frame, stamp_s, arrived });
+                state.show(&kept);
+                drop(kept);
                 bell.ring();
             }
             Err(error) => owner.log().once(Level::Warn, format_args!("a map on {name} from {caller}: {error}")),
@@ -138,29 +178,29 @@ fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Mutex<State>>, bell: &Ar
     })
 }
 
-fn listen_to_updates(node: &Node, topic: &str, state: &Arc<Mutex<State>>, bell: &Arc<Bell>) -> Feed {
+fn listen_to_updates(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell>) -> Feed {
     let (state, bell, owner, name) = (Arc::clone(state), Arc::clone(bell), node.clone(), topic.to_owned());
     node.listen(topic, 50, SILENCE, move |message: OccupancyGridUpdate, caller| {
         let (seq, arrived) = (message.header.seq, Instant::now());
         let stamp_s = believable(convert::seconds(&message.header.stamp), owner.now_s());
         let patch = convert::patch(message);
-        let mut state = lock(&state);
-        let follows = state.last_update_seq.replace(seq).is_none_or(|last| seq == last.wrapping_add(1) || seq == last);
-        state.has_gap |= !follows;
+        let mut kept = lock(&state.kept);
+        let follows = kept.last_update_seq.replace(seq).is_none_or(|last| seq == last.wrapping_add(1) || seq == last);
+        if !follows {
+            state.has_gap.store(true, Ordering::Relaxed);
+        }
         // An update that comes before its map is part of that map already.
-        let Some(map) = &mut state.map else { return };
-        match Arc::make_mut(&mut map.grid).apply(&patch) {
-            Ok(()) => {
-                (map.stamp_s, map.arrived) = (stamp_s, arrived);
-                map.version += 1;
-            }
+        let Some(map) = &mut kept.map else { return };
+        match map.live.apply(&patch) {
+            Ok(()) => (map.stamp_s, map.arrived) = (stamp_s, arrived),
             // The map has changed its size, and the whole one is on its way.
             Err(error) => {
-                state.has_gap = true;
+                state.has_gap.store(true, Ordering::Relaxed);
                 owner.log().once(Level::Warn, format_args!("{name} from {caller}: {error}"));
             }
         }
-        drop(state);
+        state.show(&kept);
+        drop(kept);
         bell.ring();
     })
 }
@@ -171,8 +211,8 @@ fn believable(header_s: f64, now_s: f64) -> f64 {
     if header_s > 0.0 && (0.0..=OLDEST_STAMP_S).contains(&age_s) { header_s } else { now_s }
 }
 
-fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
-    state.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

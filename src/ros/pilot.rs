@@ -29,7 +29,7 @@ const SLICE: Duration = Duration::from_millis(10);
 /// A lidar may begin after the node, seconds of real time.
 const SCANS_WITHIN_S: f64 = 3.0;
 /// How often standing still is said when a motion ends: a message may get lost.
-const FAREWELLS: u8 = 3;
+const LAST_ZEROS: u8 = 3;
 
 /// What the pilot needs to know.
 pub struct PilotConfig {
@@ -82,7 +82,7 @@ impl Pilot {
         }));
         let stop = Arc::new(AtomicBool::new(false));
         let guard = StopGuard::new(&config.body);
-        let wheel = Wheel {
+        let drive_loop = DriveLoop {
             node: node.clone(),
             config,
             guard,
@@ -91,10 +91,10 @@ impl Pilot {
             troubles: troubles.clone(),
             commands,
             last: Twist::ZERO,
-            farewells: FAREWELLS,
+            zeros_sent: LAST_ZEROS,
         };
         let (theirs, stopped) = (Arc::clone(&shared), Arc::clone(&stop));
-        let thread = std::thread::spawn(move || wheel.turn(&theirs, &stopped));
+        let thread = std::thread::spawn(move || drive_loop.run(&theirs, &stopped));
         Ok(Self { shared, stop, thread: Some(thread) })
     }
 
@@ -142,7 +142,7 @@ impl Drop for Pilot {
 }
 
 /// The thread's own part.
-struct Wheel {
+struct DriveLoop {
     node: Node,
     config: PilotConfig,
     guard: StopGuard,
@@ -152,11 +152,11 @@ struct Wheel {
     commands: Publisher<TwistMessage>,
     last: Twist,
     /// How often standing still has been said.
-    farewells: u8,
+    zeros_sent: u8,
 }
 
-impl Wheel {
-    fn turn(mut self, shared: &Mutex<Shared>, stop: &AtomicBool) {
+impl DriveLoop {
+    fn run(mut self, shared: &Mutex<Shared>, stop: &AtomicBool) {
         let mut next_s = f64::NEG_INFINITY;
         let mut clock = ClockWatch::new();
         while !stop.load(Ordering::Relaxed) && self.node.is_ok() {
@@ -171,7 +171,7 @@ impl Wheel {
             }
             std::thread::sleep(SLICE);
         }
-        for _ in 0..FAREWELLS {
+        for _ in 0..LAST_ZEROS {
             let _ = self.commands.send(TwistMessage::default());
         }
     }
@@ -216,7 +216,7 @@ impl Wheel {
             None => wanted,
         };
         self.last = twist;
-        self.farewells = 0;
+        self.zeros_sent = 0;
         let _ = self.commands.send(convert::twist_message(&twist));
     }
 
@@ -245,8 +245,8 @@ impl Wheel {
     /// Says zero a few times, then leaves `cmd_vel` to others.
     fn stand_still(&mut self) {
         self.last = Twist::ZERO;
-        if self.farewells < FAREWELLS {
-            self.farewells += 1;
+        if self.zeros_sent < LAST_ZEROS {
+            self.zeros_sent += 1;
             let _ = self.commands.send(TwistMessage::default());
         }
     }

@@ -3,7 +3,7 @@
 use super::clock::RunClock;
 use super::map_feed::{MapFeed, ReceivedMap};
 use super::node::Node;
-use crate::grid::{Costmap, Inflation, OccupancyGrid, Thresholds};
+use crate::grid::{BelievedCosts, Changes, Inflation, LiveCostmap, Snapshot, Thresholds};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
@@ -24,24 +24,30 @@ struct KnownMap {
     version: (u64, u64),
     snapshot: MapSnapshot,
     received: ReceivedMap,
-    /// Our own costs of the map, where we make them.
-    own: Option<Arc<Costmap>>,
 }
 
 /// The feeds of map and costmap, and the newest of both.
 pub struct RobotMap {
     map: MapFeed,
     costmap: CostmapFeed,
-    thresholds: Thresholds,
-    inflation: Inflation,
+    /// Our own costs of the map.
+    own: LiveCostmap,
+    /// What is made of them and of those that come.
+    believed: BelievedCosts,
+    /// The versions of the costs, whichever of the two they are.
+    costs: Changes,
+    /// Whether the last costs were believed ones, and their version as such.
+    source: Option<(bool, u64)>,
     known: Option<KnownMap>,
 }
 
 impl RobotMap {
     /// No map yet.
     #[must_use]
-    pub const fn new(map: MapFeed, costmap: CostmapFeed, thresholds: Thresholds, inflation: Inflation) -> Self {
-        Self { map, costmap, thresholds, inflation, known: None }
+    pub fn new(map: MapFeed, costmap: CostmapFeed, thresholds: Thresholds, inflation: Inflation) -> Self {
+        let own = LiveCostmap::new(thresholds, inflation);
+        let (believed, costs) = (BelievedCosts::default(), Changes::default());
+        Self { map, costmap, own, believed, costs, source: None, known: None }
     }
 
     /// The newest map, as it came.
@@ -86,38 +92,25 @@ impl RobotMap {
             }
             CostmapFeed::Believed(feed) => feed.newest().filter(|costmap| costmap.frame == received.frame),
         };
-        let version = (received.version, costmap.as_ref().map_or(0, |costmap| costmap.version));
+        let version = (received.changes.version(), costmap.as_ref().map_or(0, |costmap| costmap.changes.version()));
         if self.known.as_ref().is_some_and(|known| known.version == version) {
             return false;
         }
         let grid = Arc::clone(&received.grid);
-        let (own, costs) = match (&self.costmap, costmap) {
-            (CostmapFeed::PlannedOn(_), Some(costmap)) => {
-                (None, Arc::new(Costmap::from_published(&costmap.grid).on_grid(grid.info())))
-            }
-            (_, costmap) => {
-                let own = self.inflated(&grid, received.version);
-                let costs = match costmap {
-                    Some(costmap) => Arc::new(own.with_obstacles_of(&Costmap::from_published(&costmap.grid))),
-                    None => Arc::clone(&own),
-                };
-                (Some(own), costs)
-            }
+        let theirs = costmap.map(|costmap| Snapshot { cells: costmap.grid, changes: costmap.changes });
+        let is_believed = theirs.is_some();
+        let costs = match (&self.costmap, theirs) {
+            (CostmapFeed::PlannedOn(_), Some(theirs)) => self.believed.instead(grid.info(), &theirs),
+            (_, Some(theirs)) => self.believed.beside(&self.own.update(&grid, &received.changes), &theirs),
+            (_, None) => self.own.update(&grid, &received.changes),
         };
-        let snapshot =
-            MapSnapshot { stamp_s: clock.of(received.stamp_s), version: received.version, grid, costmap: Some(costs) };
-        self.known = Some(KnownMap { version, snapshot, received, own });
+        let source = (is_believed, costs.changes.version());
+        let last = self.source.replace(source).filter(|(was_believed, _)| *was_believed == is_believed);
+        self.costs = self.costs.then_known(last.and_then(|(_, version)| costs.changes.since(version)));
+        let costmap = Some(Snapshot { changes: self.costs.clone(), ..costs });
+        let (stamp_s, changes) = (clock.of(received.stamp_s), received.changes.clone());
+        let snapshot = MapSnapshot { stamp_s, grid, changes, costmap };
+        self.known = Some(KnownMap { version, snapshot, received });
         true
-    }
-
-    /// Our own costs of a map, made once for each.
-    fn inflated(&self, grid: &Arc<OccupancyGrid>, version: u64) -> Arc<Costmap> {
-        match &self.known {
-            Some(KnownMap { version: (same, _), own: Some(own), .. }) if *same == version => Arc::clone(own),
-            Some(KnownMap { snapshot, own: Some(own), .. }) => {
-                Arc::new(own.reinflate(&snapshot.grid, grid, &self.thresholds, &self.inflation))
-            }
-            _ => Arc::new(Costmap::inflate(grid, &self.thresholds, &self.inflation)),
-        }
     }
 }

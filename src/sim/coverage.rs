@@ -122,7 +122,7 @@ impl Coverage {
     pub fn update(&mut self, map: &OccupancyGrid) {
         let known = |cell: Cell| map.get(cell).is_some_and(|value| value >= 0);
         let truth = self.info;
-        if let Some(offset) = lattice_offset(&truth, map.info()) {
+        if let Some(offset) = map.info().offset_of(&truth) {
             // Indices ascend: to count the rows up is faster than to divide for each.
             let width = truth.width() as u32;
             let (mut y, mut row) = (0, 0);
@@ -149,16 +149,6 @@ impl Coverage {
     pub fn remaining(&self) -> &[u32] {
         &self.remaining
     }
-}
-
-/// What must be added to a cell of one grid to get the same cell of another, if both
-/// lie on one lattice.
-fn lattice_offset(from: &GridInfo, to: &GridInfo) -> Option<(i32, i32)> {
-    let same_size = (from.resolution_m() - to.resolution_m()).abs() < 1e-9;
-    let same_yaw = (from.origin_in_map().yaw - to.origin_in_map().yaw).abs() < 1e-9;
-    let (x, y) = to.to_grid_units(from.origin_in_map().position());
-    let whole = (x - x.round()).abs() < 1e-3 && (y - y.round()).abs() < 1e-3;
-    (same_size && same_yaw && whole).then(|| (x.round() as i32, y.round() as i32))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::geometry::{Footprint, MotionLimits, Pose, Twist, shortest_angle};
 
 /// The longest substep, seconds.
 const SUBSTEP_S: f64 = 0.02;
-/// A contact is over when the body is this far from where it happened, metres; it
+/// A contact is over when the body is this far from where it sensed, metres; it
 /// would otherwise be counted anew at every attempt.
 const CONTACT_RELEASE_M: f64 = 0.1;
 /// Or when it has turned this far, radians.
@@ -22,7 +22,7 @@ pub struct DiffDrive {
     pose: Pose,
     twist: Twist,
     odometry: Odometry,
-    /// Where the contact happened that is not over yet.
+    /// Where the contact sensed that is not over yet.
     contact: Option<Pose>,
     collisions: usize,
     distance_m: f64,

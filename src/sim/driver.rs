@@ -96,7 +96,7 @@ impl Driver {
                     pose_in_odom: plant.pose_in_odom(),
                     map_from_odom: plant.map_from_odom(),
                     twist: plant.twist(),
-                    map: plant.map(),
+                    map: plant.published_map(),
                     scan: (&plant.lidar_in_odom(), scan),
                 });
                 if *is_goal { driven } else { own.update(&input) }

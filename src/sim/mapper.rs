@@ -17,9 +17,8 @@ use super::map_window::MapWindow;
 use super::ray::{Ray, Walk};
 use super::{MapperConfig, SimConfigError};
 use crate::geometry::{Point, Pose};
-use crate::grid::{CellRect, GridInfoError, OccupancyGrid};
+use crate::grid::{CellRect, GridInfoError, Live, OccupancyGrid};
 use crate::scan::{LaserScan, Reading};
-use std::sync::Arc;
 
 /// Why a scan cannot be put into the map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -69,7 +68,7 @@ pub struct Mapper {
     /// Even; a scan marks what it passes with this and what it hits with this + 1.
     mark: u32,
     /// The map last published, and where it may differ from what is known now.
-    published: Option<Arc<OccupancyGrid>>,
+    published: Option<Live<OccupancyGrid>>,
     touched: CellRect,
 }
 

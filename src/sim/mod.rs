@@ -29,7 +29,7 @@ pub use lidar::Lidar;
 pub use mapper::{Mapper, MapperError};
 pub use move_base::{InflatedPlanner, MoveBase, MoveBaseConfig, MoveBaseInput, global_planner_cell};
 pub use odometry::{Odometry, OdometryNoise};
-pub use plant::{Happened, Plant, SimError, SimStats};
+pub use plant::{Plant, Sensed, SimError, SimStats};
 pub use robot::SimRobot;
 pub use slam::{SlamConfig, SlamKind};
 pub use world::{World, WorldError};

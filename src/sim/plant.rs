@@ -14,7 +14,8 @@ use super::{
 };
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
-use crate::grid::{Costmap, Inflation, OccupancyGrid};
+use crate::grid::{Changes, Costmap, LiveCostmap, OccupancyGrid, Snapshot};
+use crate::robot::MapSnapshot;
 use crate::scan::LaserScan;
 use serde::Serialize;
 use std::sync::Arc;
@@ -56,14 +57,16 @@ pub struct SimStats {
 #[derive(Debug)]
 struct Published {
     stamp_s: f64,
-    version: u64,
-    grid: Arc<OccupancyGrid>,
-    costmap: Arc<Costmap>,
+    /// Its version counts the maps that were published, also those of which nothing changed.
+    map: Snapshot<OccupancyGrid>,
+    /// The version of the map that the mapper knows it by.
+    mapped: u64,
+    costmap: Snapshot<Costmap>,
 }
 
-/// What has happened at a moment.
+/// What has sensed at a moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Happened {
+pub struct Sensed {
     /// A sweep of the lidar was taken.
     pub scan: bool,
     /// A map was published, though it may be the same as before.
@@ -72,8 +75,7 @@ pub struct Happened {
 
 /// The body, its lidar and its mapper.
 pub struct Plant {
-    config: SimConfig,
-    inflation: Inflation,
+    costs: LiveCostmap,
     world: Arc<World>,
     body: DiffDrive,
     lidar: Lidar,
@@ -102,17 +104,18 @@ impl Plant {
         let mut lidar_config = robot.lidar;
         lidar_config.noise_std_m = config.lidar_noise_std_m.unwrap_or(lidar_config.noise_std_m);
         let mut lidar = Lidar::new(lidar_config, config.seed);
-        let inflation = robot.inflation();
+        let mut costs = LiveCostmap::new(config.thresholds, robot.inflation());
         let newest = take_sweep(&mut lidar, &world, &body, 0.0);
         let anchor = world.info().origin_in_map().position();
         let (slam, grid) = Slam::begin(&config, &start, anchor, lidar_config.mount, &newest)?;
-        let costmap = Costmap::inflate(&grid, &config.thresholds, &inflation);
-        let published = Published { stamp_s: 0.0, version: 1, grid, costmap: Arc::new(costmap) };
+        let mapped = grid.changes.version();
+        let map = Snapshot { changes: Changes::beginning_at(1), ..grid };
+        let costmap = costs.update(&map.cells, &map.changes);
+        let published = Published { stamp_s: 0.0, map, mapped, costmap };
         let mut coverage = Coverage::new(&target);
-        coverage.update(&published.grid);
+        coverage.update(&published.map.cells);
         let mut this = Self {
-            config,
-            inflation,
+            costs,
             world,
             body,
             lidar,
@@ -189,13 +192,27 @@ impl Plant {
     /// The newest published map.
     #[must_use]
     pub const fn map(&self) -> &Arc<OccupancyGrid> {
-        &self.published.grid
+        &self.published.map.cells
+    }
+
+    /// The same with what changed since earlier ones, and the costmap made of it.
+    #[must_use]
+    pub fn map_snapshot(&self) -> MapSnapshot {
+        let Published { stamp_s, map, costmap, .. } = &self.published;
+        let (grid, changes) = (Arc::clone(&map.cells), map.changes.clone());
+        MapSnapshot { stamp_s: *stamp_s, grid, changes, costmap: Some(costmap.clone()) }
+    }
+
+    /// The same without its costmap.
+    #[must_use]
+    pub const fn published_map(&self) -> &Snapshot<OccupancyGrid> {
+        &self.published.map
     }
 
     /// The costmap of that map.
     #[must_use]
     pub const fn costmap(&self) -> &Arc<Costmap> {
-        &self.published.costmap
+        &self.published.costmap.cells
     }
 
     /// When that map was true, seconds.
@@ -207,7 +224,7 @@ impl Plant {
     /// How many maps have been published.
     #[must_use]
     pub const fn map_version(&self) -> u64 {
-        self.published.version
+        self.published.map.changes.version()
     }
 
     /// The newest scan with the lidar's pose in the map frame, as far as that is known.
@@ -269,27 +286,27 @@ impl Plant {
     ///
     /// # Errors
     /// [`MapperError`] when the map cannot grow any more.
-    pub fn happen(&mut self) -> Result<Happened, MapperError> {
-        let mut happened = Happened { scan: self.sweep.is_due(self.now), map: false };
-        if happened.scan {
+    pub fn sense(&mut self) -> Result<Sensed, MapperError> {
+        let mut sensed = Sensed { scan: self.sweep.is_due(self.now), map: false };
+        if sensed.scan {
             self.newest = take_sweep(&mut self.lidar, &self.world, &self.body, seconds(self.now));
             self.slam.add(&self.newest, self.now)?;
         }
         if let Some(map) = self.slam.publish(&self.newest, self.now)? {
-            happened.map = true;
-            self.published.stamp_s = map.stamp_s;
-            self.published.version += 1;
-            // On known ground nothing changes for long, and inflating takes its time.
-            if map.grid != self.published.grid {
-                let Published { version, grid: old, costmap, .. } = &self.published;
-                let version = *version;
-                let costmap = costmap.reinflate(old, &map.grid, &self.config.thresholds, &self.inflation);
-                let (stamp_s, grid) = (map.stamp_s, map.grid);
-                self.published = Published { stamp_s, version, grid, costmap: Arc::new(costmap) };
-                self.coverage.update(&map.seen);
+            sensed.map = true;
+            let Published { map: last, mapped, .. } = &self.published;
+            let changed = map.grid.changes.since(*mapped);
+            let changes = last.changes.then_known(changed);
+            let mapped = map.grid.changes.version();
+            let grid = Snapshot { changes, ..map.grid };
+            let costmap = self.costs.update(&grid.cells, &grid.changes);
+            self.published = Published { stamp_s: map.stamp_s, map: grid, mapped, costmap };
+            // On known ground nothing changes for long, and counting takes its time.
+            if changed.is_none_or(|changed| !changed.is_empty()) {
+                self.coverage.update(&map.seen.cells);
             }
         }
-        Ok(happened)
+        Ok(sensed)
     }
 }
 

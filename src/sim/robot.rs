@@ -7,7 +7,7 @@ use crate::geometry::{Pose, Twist};
 use crate::grid::OccupancyGrid;
 use crate::navigation::Navigator;
 use crate::planning::Path;
-use crate::robot::{Command, MapSnapshot, Navigation, NavigationState, Observation, Robot, RobotError};
+use crate::robot::{Command, Navigation, NavigationState, Observation, Robot, RobotError};
 use std::sync::Arc;
 
 /// The simulated robot.
@@ -106,7 +106,7 @@ impl SimRobot {
     /// command, so that each has the newest of the one before.
     fn advance_to(&mut self, end: Micros) -> Result<(), MapperError> {
         loop {
-            self.plant.happen()?;
+            self.plant.sense()?;
             if self.plant.now() >= end {
                 return Ok(());
             }
@@ -133,12 +133,7 @@ impl Robot for SimRobot {
         Ok(Observation {
             stamp_s: seconds(self.plant.now()),
             pose_in_map: Ok(self.plant.pose_in_map()),
-            map: Some(MapSnapshot {
-                stamp_s: self.plant.map_stamp_s(),
-                version: self.plant.map_version(),
-                grid: Arc::clone(self.plant.map()),
-                costmap: Some(Arc::clone(self.plant.costmap())),
-            }),
+            map: Some(self.plant.map_snapshot()),
             scan: Some((lidar_in_map, Arc::clone(scan))),
             navigation: self.navigation.clone(),
         })

@@ -100,7 +100,7 @@ impl Trail {
             grid: Arc::clone(&map.grid),
             pose_in_map: observation.pose_in_map.as_ref().ok().copied(),
             trajectory_len: self.trajectory.len(),
-            frontier_points_in_map: explorer.frontiers().iter().flat_map(|f| &f.cells).copied().collect(),
+            frontier_points_in_map: explorer.frontiers().cells().collect(),
             goal_in_map: explorer.goal().map(|goal| goal.position()),
         });
     }

@@ -49,7 +49,7 @@ impl Explorer {
                 // A robot that stands where its navigation cannot plan from gets no plan.
                 let wedged = still_s >= WEDGED_STILL_S
                     && self.watch.map().and_then(|map| map.costmap.as_ref()).is_some_and(|costmap| {
-                        let cost = costmap.cost_at(pose.position());
+                        let cost = costmap.cells.cost_at(pose.position());
                         matches!(cost, INSCRIBED_COST | LETHAL_COST)
                     });
                 let trouble = if now_s - drive.since_s >= patience.goal_timeout_s {
@@ -78,7 +78,7 @@ impl Explorer {
     /// settings ask for it.
     fn reconsider(&mut self, observation: &Observation, map: &MapSnapshot, pose: Pose) -> Option<DecisionRecord> {
         let State::Driving(drive) = &mut self.state else { return None };
-        if map.version <= drive.considered_version {
+        if map.version() <= drive.considered_version {
             return None;
         }
         let due = self

@@ -1,8 +1,8 @@
 //! From a decision to what is done about it: a goal, a look round, a recovery, the end.
 
-use super::super::decide::Situation;
 use super::super::decided::Decided;
-use super::super::progress::ProgressMonitor;
+use super::super::lookout::Situation;
+use super::super::progress_monitor::ProgressMonitor;
 use super::super::record::{DecisionRecord, EndReason};
 use super::super::state::{AfterTurn, Drive, State};
 use super::Explorer;
@@ -37,9 +37,9 @@ impl Explorer {
             return;
         }
         let distance_m = |point: &Point| goal.distance_to(*point);
-        let cells = self.lookout.frontiers().iter().flat_map(|frontier| &frontier.cells);
+        let cells = self.lookout.frontiers().cells();
         // The frontier that it was sent for is the nearest one.
-        let target = cells.copied().min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
+        let target = cells.min_by(|a, b| distance_m(a).total_cmp(&distance_m(b)));
         self.state = State::Driving(Drive {
             id: self.next_id(),
             goal,
@@ -49,7 +49,7 @@ impl Explorer {
             since_s: observation.stamp_s,
             progress: ProgressMonitor::new(pose, observation.stamp_s),
             considered_s: map.stamp_s,
-            considered_version: map.version,
+            considered_version: map.version(),
             done_at: None,
         });
     }
@@ -104,8 +104,8 @@ impl Explorer {
         for Arrival { target, place, is_beside, .. } in shown {
             let is_there = |point: Point| nalgebra::distance(&point, &target) <= radius_m;
             let mut targets = decided.record.candidates.iter().map(|c| Point::new(c.target.x, c.target.y));
-            let mut cells = self.lookout.frontiers().iter().flat_map(|frontier| &frontier.cells);
-            if is_beside || targets.any(is_there) || cells.any(|&cell| is_there(cell)) {
+            let mut cells = self.lookout.frontiers().cells();
+            if is_beside || targets.any(is_there) || cells.any(is_there) {
                 self.blacklist.record_visit(target, place);
             }
         }
@@ -135,7 +135,7 @@ impl Explorer {
                 let comes_first = choice.is_beside && !drive.is_beside;
                 if is_same || !comes_first && decided.is_open_near(drive.target, goal.commit_radius_m) {
                     drive.considered_s = map.stamp_s;
-                    drive.considered_version = map.version;
+                    drive.considered_version = map.version();
                     drive.done_at = None;
                     record.goal = Some(drive.goal);
                     "the goal under way is kept".clone_into(&mut record.why);
@@ -170,18 +170,18 @@ impl Explorer {
                 since_s: now_s,
                 progress,
                 considered_s: map.stamp_s,
-                considered_version: map.version,
+                considered_version: map.version(),
                 done_at: None,
             });
             return;
         }
         // A robot that drives on gets its next map, and gmapping sends one that stands none.
         if let State::Driving(drive) = &mut self.state
-            && drive.done_at.is_none_or(|version| map.version <= version)
+            && drive.done_at.is_none_or(|version| map.version() <= version)
             && self.lookout.can_stand(map, drive.goal.position())
         {
-            drive.done_at = Some(map.version);
-            (drive.considered_s, drive.considered_version) = (map.stamp_s, map.version);
+            drive.done_at = Some(map.version());
+            (drive.considered_s, drive.considered_version) = (map.stamp_s, map.version());
             record.goal = Some(drive.goal);
             "nothing is left to choose on this map: the goal under way is kept until the next"
                 .clone_into(&mut record.why);
@@ -190,7 +190,7 @@ impl Explorer {
         if !self.shows_all() {
             "nothing is left to choose on this map: one that came after the last motion shall confirm it"
                 .clone_into(&mut record.why);
-            self.keep_confirming(map.version, now_s);
+            self.keep_confirming(map.version(), now_s);
             return;
         }
         if let Some(target) = decided.here {
@@ -241,7 +241,7 @@ impl Explorer {
         let map = self.usable_map(now_s)?;
         let State::Confirming { since_s, turns, version } = &self.state else { return None };
         let (waited_s, turns) = (now_s - since_s, *turns);
-        if map.version != *version {
+        if map.version() != *version {
             return self.decide(observation, &map, pose);
         }
         // gmapping sends no map while the robot stands.

@@ -6,8 +6,8 @@ use super::super::convert::{header, point_message};
 use super::super::msg::geometry_msgs::{Point as PointMessage, Pose as PoseMessage, Quaternion, Vector3};
 use super::super::msg::std_msgs::ColorRGBA;
 use super::super::msg::visualization_msgs::{Marker, MarkerArray};
-use crate::explore::{CandidateRecord, CandidateStatus, DecisionRecord, SeenFrontier};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::explore::{CandidateRecord, CandidateStatus, DecisionRecord, SeenFrontiers};
+use std::collections::BTreeSet;
 
 /// The cells of a frontier.
 const CELLS: &str = "frontiers";
@@ -29,18 +29,19 @@ impl FrontierMarkers {
     pub fn update(
         &mut self,
         record: &DecisionRecord,
-        frontiers: &[SeenFrontier],
+        frontiers: &SeenFrontiers,
         resolution_m: f64,
         frame: &str,
         stamp_s: f64,
     ) -> MarkerArray {
-        let cells: BTreeMap<u64, &SeenFrontier> = frontiers.iter().map(|f| (f.id, f)).collect();
         let mut markers = Vec::new();
         let mut rank = 0;
         for candidate in &record.candidates {
             let color = color(candidate.status);
-            if let Some(frontier) = cells.get(&candidate.id) {
-                markers.push(cubes(frontier, resolution_m, color.clone()));
+            let cells: Vec<PointMessage> =
+                frontiers.cells_of(candidate.id).map(|cell| point_message(cell.x, cell.y)).collect();
+            if !cells.is_empty() {
+                markers.push(cubes(candidate.id, cells, resolution_m, color.clone()));
             }
             markers.push(sphere(candidate, color));
             if matches!(candidate.status, CandidateStatus::Chosen | CandidateStatus::Eligible) {
@@ -94,10 +95,9 @@ fn marker(kind: u8, id: u64, color: ColorRGBA) -> Marker {
     }
 }
 
-fn cubes(frontier: &SeenFrontier, resolution_m: f64, color: ColorRGBA) -> (&'static str, Marker) {
-    let points: Vec<PointMessage> = frontier.cells.iter().map(|cell| point_message(cell.x, cell.y)).collect();
+fn cubes(id: u64, points: Vec<PointMessage>, resolution_m: f64, color: ColorRGBA) -> (&'static str, Marker) {
     let scale = Vector3 { x: resolution_m, y: resolution_m, z: 0.02 };
-    (CELLS, Marker { scale, points, ..marker(Marker::CUBE_LIST, frontier.id, color) })
+    (CELLS, Marker { scale, points, ..marker(Marker::CUBE_LIST, id, color) })
 }
 
 fn sphere(candidate: &CandidateRecord, color: ColorRGBA) -> (&'static str, Marker) {
@@ -123,7 +123,9 @@ const fn at(x: f64, y: f64, z: f64) -> PoseMessage {
 mod tests {
     use super::*;
     use crate::explore::Position;
-    use crate::geometry::{Point, Pose};
+    use crate::frontier::{CellSide, Frontier};
+    use crate::geometry::Pose;
+    use crate::grid::{Cell, GridInfo};
 
     fn candidate(id: u64, status: CandidateStatus) -> CandidateRecord {
         CandidateRecord {
@@ -134,14 +136,20 @@ mod tests {
             size_m: 0.05,
             distance_m: 1.0,
             path_m: None,
-            scores: BTreeMap::new(),
+            scores: std::collections::BTreeMap::new(),
             status,
         }
     }
 
     fn show(markers: &mut FrontierMarkers, candidates: Vec<CandidateRecord>) -> Vec<(String, i32, i32)> {
-        let frontiers: Vec<SeenFrontier> =
-            candidates.iter().map(|c| SeenFrontier { id: c.id, cells: vec![Point::new(c.id as f64, 0.0)] }).collect();
+        let info = GridInfo::new(20, 1, 1.0, Pose::default()).unwrap();
+        let frontier = |c: &CandidateRecord| Frontier {
+            id: c.id,
+            cells: vec![Cell::new(c.id as i32, 0)].into(),
+            side: CellSide::Unknown,
+            circle: None,
+        };
+        let frontiers = SeenFrontiers::new(info, candidates.iter().map(frontier).collect());
         let record = DecisionRecord { time_s: 1.0, pose: Pose::default(), candidates, goal: None, why: String::new() };
         let array = markers.update(&record, &frontiers, 0.05, "map", 1.0);
         assert!(array.markers.iter().all(|m| m.header.frame_id == "map"));

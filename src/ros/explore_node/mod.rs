@@ -171,7 +171,7 @@ fn run_once(
     if let Some(planner) = controls.asking_planner(node, settings) {
         explorer.set_planner(planner);
     }
-    let mut watcher = NodeWatcher::new(node, outputs, controls);
+    let mut watcher = NodeWatcher::new(node, outputs, controls, settings.preset.explorer.thresholds);
     let end = explore(robot, &mut explorer, &mut watcher);
     robot.stop();
     let status = watcher.finish(robot, &explorer, &end);

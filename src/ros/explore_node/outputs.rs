@@ -3,7 +3,7 @@
 use super::connect::Connected;
 use super::saving::MapSaver;
 use super::{ExploreNodeError, Settings};
-use crate::explore::{Counts, DecisionRecord, Explorer, Phase, TimeSpent};
+use crate::explore::{Counts, Decision, DecisionRecord, Explorer, Phase, TimeSpent};
 use crate::geometry::Path;
 use crate::ros::convert;
 use crate::ros::display::{
@@ -99,18 +99,18 @@ impl Outputs {
     }
 
     /// Shows a decision.
-    pub fn show_decision(&self, record: &DecisionRecord, explorer: &Explorer, resolution_m: f64, frame: &str) {
+    pub fn show_decision(&self, decision: &Decision, record: &DecisionRecord, resolution_m: f64, frame: &str) {
         let stamp_s = self.node.now_s();
         // Nobody who listens is no error of ours.
         if let Some(frontiers) = &self.frontiers {
             let mut markers = self.markers.lock().unwrap_or_else(PoisonError::into_inner);
-            let _ = frontiers.send(markers.update(record, explorer.frontiers(), resolution_m, frame, stamp_s));
+            let _ = frontiers.send(markers.update(record, &decision.frontiers, resolution_m, frame, stamp_s));
         }
         let _ = self.array.send(frontier_array(record, frame, stamp_s));
         if let Some(goal) = &record.goal {
             let _ = self.goal.send(convert::stamped(goal, frame, stamp_s));
         }
-        if let Some(path) = explorer.path() {
+        if let Some(path) = &decision.path {
             self.show_path(path, frame);
         }
     }

@@ -58,12 +58,12 @@ impl MapSaver {
         let Some(map) = self.maps.newest() else {
             return self.fail(&format!("no map has come that could be saved as {}", self.file));
         };
-        if *saved == Some(map.version) {
+        if *saved == Some(map.changes.version()) {
             return true;
         }
         match save_as(&self.file, &map) {
             Ok(paths) => {
-                *saved = Some(map.version);
+                *saved = Some(map.changes.version());
                 self.troubles.clear(Trouble::MapFile);
                 self.log.info(format_args!("saved {} and {}", paths.yaml.display(), paths.image.display()));
                 true

@@ -5,7 +5,7 @@ use super::controls::Controls;
 use super::outputs::Outputs;
 use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
-use crate::grid::Thresholds;
+use crate::grid::{LiveCensus, Thresholds};
 use crate::robot::Observation;
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
@@ -25,7 +25,7 @@ pub struct NodeWatcher<'a> {
     now_s: f64,
     last_pose: Option<Pose>,
     distance_m: f64,
-    map_version: u64,
+    census: LiveCensus,
     known_area_m2: f64,
     free_area_m2: f64,
     frontiers: usize,
@@ -38,8 +38,8 @@ pub struct NodeWatcher<'a> {
 }
 
 impl<'a> NodeWatcher<'a> {
-    /// A watcher of a run that begins now.
-    pub fn new(node: &'a Node, outputs: &'a Outputs, controls: &'a Controls) -> Self {
+    /// A watcher of a run that begins now; areas are counted by these thresholds.
+    pub fn new(node: &'a Node, outputs: &'a Outputs, controls: &'a Controls, thresholds: Thresholds) -> Self {
         Self {
             node,
             outputs,
@@ -48,7 +48,7 @@ impl<'a> NodeWatcher<'a> {
             now_s: 0.0,
             last_pose: None,
             distance_m: 0.0,
-            map_version: 0,
+            census: LiveCensus::new(thresholds),
             known_area_m2: 0.0,
             free_area_m2: 0.0,
             frontiers: 0,
@@ -106,14 +106,13 @@ impl<'a> NodeWatcher<'a> {
 
     fn count_area(&mut self, robot: &RosRobot) {
         let Some(map) = robot.received_map() else { return };
-        if map.version != self.map_version {
-            self.map_version = map.version;
+        if map.frame != self.frame {
             map.frame.clone_into(&mut self.frame);
-            let census = map.grid.census(&Thresholds::default());
-            let cell_m2 = map.grid.info().cell_area_m2();
-            self.known_area_m2 = census.known() as f64 * cell_m2;
-            self.free_area_m2 = census.free as f64 * cell_m2;
         }
+        let census = self.census.update(&map.grid, &map.changes);
+        let cell_m2 = map.grid.info().cell_area_m2();
+        self.known_area_m2 = census.known() as f64 * cell_m2;
+        self.free_area_m2 = census.free as f64 * cell_m2;
     }
 }
 
@@ -163,7 +162,7 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
                 self.node.log().once(Level::Info, &record.why);
             }
             self.last_goal = record.goal;
-            self.outputs.show_decision(record, explorer, map.grid.info().resolution_m(), &map.frame);
+            self.outputs.show_decision(decision, record, map.grid.info().resolution_m(), &map.frame);
         }
         if let Some(path) = robot.path() {
             self.outputs.show_path(&path, &self.frame);

@@ -95,7 +95,7 @@ impl RosRobot {
         self.map_is_new = self.parts.map.take_newest(&self.clock);
         let (Some(received), Some(snapshot)) = (self.parts.map.received(), self.parts.map.snapshot()) else { return };
         if let (true, Some(costmap)) = (self.map_is_new, &snapshot.costmap) {
-            self.parts.pilot.set_costmap(&received.frame, Arc::clone(costmap), received.stamp_s);
+            self.parts.pilot.set_costmap(&received.frame, Arc::clone(&costmap.cells), received.stamp_s);
             received.frame.clone_into(&mut self.parts.map_frame.lock().unwrap_or_else(PoisonError::into_inner));
         }
     }

@@ -192,7 +192,8 @@ impl Simulator {
         config.mapper.style = params.map_style;
         config.slam.kind = params.slam;
         config.mapper.resolution_m = truth.info().resolution_m();
-        let world = Arc::new(World::new(&truth, &config.thresholds)?);
+        // As map_server reads it, whatever the preset makes of the map that comes of it.
+        let world = Arc::new(World::new(&truth, &SimConfig::default().thresholds)?);
         let start = params.start_pose()?.unwrap_or_else(|| world.most_open_spot());
         let plant = Plant::new(world, &robot, config, start)?;
         let with_clock = params.speed != 1.0 || node.is_simulated_time();
@@ -249,7 +250,7 @@ impl Simulator {
             while self.plant.now_s() < wanted_s {
                 let next_s = self.plant.next_s().min(control.next_s).min(clock.next_s).min(tf.next_s);
                 self.plant.drive_until_s(&self.twist, next_s);
-                let happened = self.plant.happen()?;
+                let sensed = self.plant.sense()?;
                 let (now_s, stamp_s, fault) = (self.plant.now_s(), self.stamp_s(), self.fault());
                 if clock.is_due(now_s) {
                     self.topics.tell_clock(stamp_s);
@@ -257,10 +258,10 @@ impl Simulator {
                 if tf.is_due(now_s) {
                     self.topics.tell_odometry(&self.plant, stamp_s, fault != Fault::DropTf);
                 }
-                if happened.scan {
+                if sensed.scan {
                     self.topics.tell_scan(&self.plant, stamp_s);
                 }
-                if happened.map && fault != Fault::StopMap {
+                if sensed.map && fault != Fault::StopMap {
                     self.tell_map();
                 }
                 if control.is_due(now_s) {

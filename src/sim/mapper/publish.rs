@@ -1,7 +1,7 @@
 //! The map as others see it.
 
 use super::{Mapper, MapperError};
-use crate::grid::{CellRect, OccupancyGrid};
+use crate::grid::{CellRect, Live, OccupancyGrid, Snapshot};
 use crate::sim::MapStyle;
 use std::sync::Arc;
 
@@ -17,23 +17,28 @@ impl Mapper {
         Ok(grid)
     }
 
-    /// The same from the map that was published last. O(cells around the scans since then),
-    /// and a copy if somebody still has that map.
+    /// The same from the map that was published last, with what changed since. O(cells around the
+    /// scans since then), and a copy if somebody still reads all maps of before.
     ///
     /// # Errors
     /// As [`Self::map`].
-    pub fn publish(&mut self) -> Result<Arc<OccupancyGrid>, MapperError> {
+    pub fn publish(&mut self) -> Result<Snapshot<OccupancyGrid>, MapperError> {
         let info = self.window.info()?;
         let touched = std::mem::take(&mut self.touched);
-        let grid = match self.published.take() {
-            Some(mut grid) if *grid.info() == info => {
-                self.write(Arc::make_mut(&mut grid), &touched);
-                grid
+        let published = match self.published.take() {
+            Some(mut live) if *live.newest().info() == info => {
+                if !touched.is_empty() {
+                    live.change(touched, |grid| self.write(grid, &touched));
+                }
+                live
             }
-            _ => Arc::new(self.map()?),
+            Some(mut live) => {
+                live.replace_unlike(Arc::new(self.map()?));
+                live
+            }
+            None => Live::new(Arc::new(self.map()?)),
         };
-        self.published = Some(Arc::clone(&grid));
-        Ok(grid)
+        Ok(self.published.insert(published).snapshot())
     }
 
     /// Writes the values of the cells of a part that are seen. A map is published every second:

@@ -66,7 +66,7 @@ proptest! {
             let pose = Pose::new(at.x, at.y, if straight { 0.0 } else { yaw });
             mapper.integrate(&pose, &lidar.sweep(&world, &pose, 0.0)).unwrap();
         }
-        let map = mapper.publish().unwrap();
+        let map = mapper.publish().unwrap().cells;
         prop_assert_eq!(&*map, &mapper.map().unwrap());
         let cells = compared(&map, &truth);
         prop_assert_eq!(cells.len(), mapper.known_cells());
@@ -119,9 +119,9 @@ fn a_room_is_learned_whole_and_the_map_grows_with_it() {
     let world = World::new(&truth, &Thresholds::default()).unwrap();
     let pose = Pose::new(0.02, 5.0, 0.3);
     let mut mapper = mapper(&truth, pose.position(), MapStyle::Gmapping);
-    let first = mapper.publish().unwrap();
+    let first = mapper.publish().unwrap().cells;
     mapper.integrate(&pose, &Lidar::new(LIDAR, 0).sweep(&world, &pose, 0.0)).unwrap();
-    let map = mapper.publish().unwrap();
+    let map = mapper.publish().unwrap().cells;
     let (old, new) = (first.info(), map.info());
     assert!(new.width() > old.width() && new.height() > old.height());
     assert_eq!(new.resolution_m(), old.resolution_m());
@@ -147,14 +147,14 @@ fn a_clear_ray_frees_its_reach_and_a_near_one_says_nothing() {
     // The middle of a cell: 2 m are 20 cells and the two halves.
     mapper.integrate(&Pose::new(-3.13 + 2.05, 2.71 + 2.05, 0.0), &scan).unwrap();
     assert_eq!(mapper.known_cells(), 21);
-    assert_eq!(mapper.publish().unwrap().data().iter().filter(|&&v| v == 0).count(), 21);
+    assert_eq!(mapper.publish().unwrap().cells.data().iter().filter(|&&v| v == 0).count(), 21);
 }
 
 /// One ray along a row of cells, from the middle of the first.
 fn one_ray(mapper: &mut Mapper, range_m: f32) -> Vec<i8> {
     let scan = LaserScan { range_min_m: 0.01, range_max_m: 2.0, ranges_m: vec![range_m], ..LaserScan::default() };
     mapper.integrate(&Pose::new(0.05, 0.05, 0.0), &scan).unwrap();
-    let map = mapper.publish().unwrap();
+    let map = mapper.publish().unwrap().cells;
     let here = map.info().cell_at(Point::new(0.05, 0.05));
     (0..6).map(|x| map.get(here.offset((x, 0))).unwrap()).collect()
 }
@@ -193,7 +193,7 @@ fn within_a_scan_a_cell_counts_once_and_a_hit_wins() {
         ..LaserScan::default()
     };
     mapper.integrate(&Pose::new(0.05, 0.05, 0.0), &scan).unwrap();
-    let map = mapper.publish().unwrap();
+    let map = mapper.publish().unwrap().cells;
     let here = map.info().cell_at(Point::new(0.05, 0.05));
     let row: Vec<i8> = (0..6).map(|x| map.get(here.offset((x, 0))).unwrap()).collect();
     assert_eq!(row, [40, 40, 40, 70, 70, 40]);

@@ -36,7 +36,7 @@ pub use global_planner::{InflatedPlanner, global_planner_cell};
 
 use crate::config::RobotConfig;
 use crate::geometry::{Body, Footprint, Path, Pose, Twist};
-use crate::grid::{Costmap, Inflation, OccupancyGrid, Thresholds};
+use crate::grid::{Costmap, Inflation, LiveCostmap, OccupancyGrid, Snapshot, Thresholds};
 use crate::robot::{CommandId, Navigation, NavigationState};
 use crate::scan::LaserScan;
 use local_planner::LocalPlanner;
@@ -62,7 +62,7 @@ pub struct MoveBaseInput<'a> {
     /// How it moves.
     pub twist: Twist,
     /// The newest map.
-    pub map: &'a Arc<OccupancyGrid>,
+    pub map: &'a Snapshot<OccupancyGrid>,
     /// The newest scan with the lidar's pose in the odometry's frame.
     pub scan: (&'a Pose, &'a LaserScan),
 }
@@ -74,10 +74,9 @@ impl MoveBaseInput<'_> {
     }
 }
 
-/// What the stand-in plans on: the map it was made from, the costs, and since when.
+/// What the stand-in plans on, and since when.
 #[derive(Debug)]
 struct Global {
-    map: Arc<OccupancyGrid>,
     costmap: Arc<Costmap>,
     since_s: f64,
 }
@@ -86,7 +85,7 @@ struct Global {
 #[derive(Debug)]
 pub struct MoveBase {
     config: MoveBaseConfig,
-    inflation: Inflation,
+    costs: LiveCostmap,
     planner: InflatedPlanner,
     local: LocalPlanner,
     random: Pcg32,
@@ -112,7 +111,7 @@ impl MoveBase {
         let body = Body { footprint, limits: robot.limits };
         Self {
             config,
-            inflation,
+            costs: LiveCostmap::new(Thresholds::default(), inflation),
             planner: InflatedPlanner::new(config.allow_unknown),
             local: LocalPlanner::new(&body, &robot.body(), inflation),
             random: Pcg32::new(seed, STREAM),
@@ -187,16 +186,10 @@ impl MoveBase {
 
     /// Takes a new map into the costmap, as often as costmaps are updated.
     fn look_at_map(&mut self, input: &MoveBaseInput<'_>) {
-        let make = |costmap| Global { map: Arc::clone(input.map), costmap: Arc::new(costmap), since_s: input.stamp_s };
-        let thresholds = Thresholds::default();
-        match &mut self.global {
-            None => self.global = Some(make(Costmap::inflate(input.map, &thresholds, &self.inflation))),
-            Some(global) if input.stamp_s - global.since_s < self.config.costmap_period_s => {}
-            Some(global) if Arc::ptr_eq(&global.map, input.map) => global.since_s = input.stamp_s,
-            Some(global) => {
-                let costmap = global.costmap.reinflate(&global.map, input.map, &thresholds, &self.inflation);
-                self.global = Some(make(costmap));
-            }
+        let is_due = |global: &Global| input.stamp_s - global.since_s >= self.config.costmap_period_s;
+        if self.global.as_ref().is_none_or(is_due) {
+            let costmap = self.costs.update(&input.map.cells, &input.map.changes).cells;
+            self.global = Some(Global { costmap, since_s: input.stamp_s });
         }
     }
 

@@ -50,7 +50,7 @@ impl Rig {
             pose_in_odom: self.plant.pose_in_odom(),
             map_from_odom: self.plant.map_from_odom(),
             twist: self.plant.twist(),
-            map: self.plant.map(),
+            map: self.plant.published_map(),
             scan: (&lidar_in_odom, &scan),
         });
         if self.is_stuck {
@@ -60,7 +60,7 @@ impl Rig {
         while self.plant.now_s() < end_s - 1e-7 {
             let next_s = self.plant.next_s().min(end_s);
             self.plant.drive_until_s(&twist, next_s);
-            self.plant.happen().unwrap();
+            self.plant.sense().unwrap();
         }
         (twist, navigation.state)
     }

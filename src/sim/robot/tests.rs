@@ -58,7 +58,7 @@ fn the_first_observation_is_at_time_zero_and_has_a_map() {
     assert_eq!((first.stamp_s, first.navigation.state), (0.0, NavigationState::Idle));
     let map = first.map.unwrap();
     assert!(map.stamp_s == 0.0 && map.grid.census(&Thresholds::default()).free > 1000);
-    assert_eq!(map.costmap.unwrap().info(), map.grid.info());
+    assert_eq!(map.costmap.unwrap().cells.info(), map.grid.info());
     assert_eq!(first.scan.unwrap().1.stamp_s, 0.0);
 }
 

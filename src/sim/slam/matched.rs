@@ -22,12 +22,11 @@ use super::super::schedule::{Micros, micros, seconds};
 use super::super::{Mapper, MapperConfig, MapperError, SimConfig};
 use super::{NewMap, SlamConfig, Sweep};
 use crate::geometry::{Point, Pose, normalize_angle, shortest_angle};
-use crate::grid::OccupancyGrid;
+use crate::grid::{OccupancyGrid, Snapshot};
 use crate::matching::{LikelihoodField, Prior, match_scan, thinned_hits};
 use rand_distr::{Distribution, StandardNormal, Uniform};
 use rand_pcg::Pcg32;
 use std::collections::VecDeque;
-use std::sync::Arc;
 
 /// Which sequence of the seed the lateness is drawn from.
 const STREAM: u64 = 0x51a;
@@ -81,7 +80,7 @@ impl MatchedSlam {
         anchor: Point,
         mount: Pose,
         first: &Sweep,
-    ) -> Result<(Self, Arc<OccupancyGrid>), MapperError> {
+    ) -> Result<(Self, Snapshot<OccupancyGrid>), MapperError> {
         let counting = MapperConfig {
             hit_log_odds: 3.0,
             pass_log_odds: -1.0,
@@ -134,7 +133,7 @@ impl MatchedSlam {
         let moved = odom.inverse().compose(&sweep.base_in_odom);
         let prior = Prior::after_motion(&placed, &moved);
         let points = thinned_hits(&sweep.scan, &self.mount, self.config.max_points);
-        let field = LikelihoodField::of(&*self.mapper.publish()?);
+        let field = LikelihoodField::of(&self.mapper.publish()?.cells);
         let found = match_scan(&field, &points, &prior);
         let is_believed = points.len() >= FEWEST_POINTS && found.likelihood >= self.config.min_likelihood;
         let pose = self.err(if is_believed { found.pose } else { prior.pose });

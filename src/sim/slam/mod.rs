@@ -9,7 +9,7 @@ pub use config::{SlamConfig, SlamKind};
 use super::schedule::Micros;
 use super::{MapperError, SimConfig};
 use crate::geometry::{Point, Pose};
-use crate::grid::OccupancyGrid;
+use crate::grid::{OccupancyGrid, Snapshot};
 use crate::scan::LaserScan;
 use matched::MatchedSlam;
 use perfect::PerfectSlam;
@@ -28,11 +28,11 @@ pub(super) struct Sweep {
 
 /// A map as it is published, and the time in seconds up to which it shows what was sensed.
 pub(super) struct NewMap {
-    pub grid: Arc<OccupancyGrid>,
+    pub grid: Snapshot<OccupancyGrid>,
     pub stamp_s: f64,
     /// What the scans in it show when they are put where they were truly taken, in the world's
     /// frame: coverage is counted here. With a perfect SLAM this is the map itself.
-    pub seen: Arc<OccupancyGrid>,
+    pub seen: Snapshot<OccupancyGrid>,
 }
 
 /// One of the two kinds.
@@ -52,7 +52,7 @@ impl Slam {
         anchor: Point,
         mount: Pose,
         first: &Sweep,
-    ) -> Result<(Self, Arc<OccupancyGrid>), MapperError> {
+    ) -> Result<(Self, Snapshot<OccupancyGrid>), MapperError> {
         Ok(match config.slam.kind {
             SlamKind::Perfect => {
                 let (slam, grid) = PerfectSlam::begin(config.mapper, start, anchor, first)?;

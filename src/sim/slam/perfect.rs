@@ -6,8 +6,7 @@ use super::super::schedule::{Micros, Periodic, seconds};
 use super::super::{Mapper, MapperConfig, MapperError};
 use super::{NewMap, Sweep};
 use crate::geometry::{Point, Pose};
-use crate::grid::OccupancyGrid;
-use std::sync::Arc;
+use crate::grid::{OccupancyGrid, Snapshot};
 
 /// Mapping with known poses.
 #[derive(Debug)]
@@ -27,7 +26,7 @@ impl PerfectSlam {
         start: &Pose,
         anchor: Point,
         first: &Sweep,
-    ) -> Result<(Self, Arc<OccupancyGrid>), MapperError> {
+    ) -> Result<(Self, Snapshot<OccupancyGrid>), MapperError> {
         let mut mapper = Mapper::new(config, start.position(), anchor)?;
         mapper.integrate(&first.lidar_in_world, &first.scan)?;
         let mut filter = MotionFilter::default();
@@ -60,7 +59,7 @@ impl PerfectSlam {
             self.mapper.integrate(&newest.lidar_in_world, &newest.scan)?;
         }
         let grid = self.mapper.publish()?;
-        Ok(Some(NewMap { seen: Arc::clone(&grid), grid, stamp_s: seconds(now) }))
+        Ok(Some(NewMap { seen: grid.clone(), grid, stamp_s: seconds(now) }))
     }
 
     pub(super) fn known_area_m2(&self) -> f64 {

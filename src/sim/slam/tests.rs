@@ -35,14 +35,14 @@ fn plant_with(kind: SlamKind, seed: u64, lidar_noise_std_m: Option<f64>) -> Plan
     Plant::new(hall(), &burger(), config, Pose::new(1.6, -1.0, 0.3)).unwrap()
 }
 
-/// Drives for a while and looks at the plant whenever something has happened.
+/// Drives for a while and looks at the plant whenever something has sensed.
 fn drive(plant: &mut Plant, twist: &Twist, duration_s: f64, mut look: impl FnMut(&Plant, bool)) {
     let end_s = plant.now_s() + duration_s;
     while plant.now_s() < end_s {
         let next_s = plant.next_s().min(end_s);
         plant.drive_until_s(twist, next_s);
-        let happened = plant.happen().unwrap();
-        look(plant, happened.map);
+        let sensed = plant.sense().unwrap();
+        look(plant, sensed.map);
     }
 }
 

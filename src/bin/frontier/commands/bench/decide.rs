@@ -99,7 +99,7 @@ fn time_decisions(
         let observation = Observation {
             stamp_s,
             pose_in_map: Ok(args.at),
-            map: Some(MapSnapshot { stamp_s, version: u64::from(run), grid: Arc::clone(grid), costmap: None }),
+            map: Some(MapSnapshot::alone(stamp_s, u64::from(run), Arc::clone(grid))),
             scan: None,
             navigation: Navigation { command: 0, state: NavigationState::Idle },
         };

@@ -5,7 +5,6 @@ use super::recording::Recording;
 use crate::simulation::Plan;
 use crate::trail::Trail;
 use frontier_explorer::explore::{Decision, End, Explorer, Watcher};
-use frontier_explorer::grid::Thresholds;
 use frontier_explorer::report::{RunRecord, SCHEMA_VERSION, Series};
 use frontier_explorer::robot::Observation;
 use frontier_explorer::sim::SimRobot;
@@ -41,7 +40,7 @@ impl Recorder {
         self.progress.finish(&stats);
         let counts = *explorer.counts();
         let map = sim.map();
-        let census = map.census(&Thresholds::default());
+        let census = map.census(&plan.preset.explorer.thresholds);
         let cell_m2 = map.info().cell_area_m2();
         RunRecord {
             schema_version: SCHEMA_VERSION,

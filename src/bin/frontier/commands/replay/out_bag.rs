@@ -5,8 +5,8 @@ use frontier_explorer::bag::{
     Connection, Header, MessageType, Nanos, PlayedMessage, map_message, marker_message, nanos, path_message,
     pose_message, seconds, tf_message,
 };
-use frontier_explorer::explore::Explorer;
-use frontier_explorer::geometry::Point;
+use frontier_explorer::explore::Decision;
+use frontier_explorer::geometry::{Point, Pose};
 use frontier_explorer::grid::OccupancyGrid;
 use frontier_explorer::replay::{Inputs, ScanMapping, Tap};
 use frontier_explorer::tf::TransformSample;
@@ -61,18 +61,18 @@ impl OutBag {
     }
 
     /// Writes the outcome of a decision.
-    pub fn decided(&self, now_s: f64, explorer: &Explorer, edge_m: f64) {
+    pub fn decided(&self, now_s: f64, decision: &Decision, goal: Option<Pose>, edge_m: f64) {
         let Inner { file, begin, inputs, seq, .. } = &mut *self.inner.borrow_mut();
         *seq = seq.wrapping_add(1);
         let frame =
             if self.made.is_some() { MADE_FRAME.to_owned() } else { inputs.map_frame.clone().unwrap_or_default() };
         let header = Header { seq: *seq, stamp: *begin + nanos(now_s), frame };
-        let points: Vec<Point> = explorer.frontiers().iter().flat_map(|f| &f.cells).copied().collect();
+        let points: Vec<Point> = decision.frontiers.cells().collect();
         file.put(self.frontiers, header.stamp, &marker_message(&header, "frontiers", edge_m, &points));
-        if let Some(pose) = explorer.goal() {
+        if let Some(pose) = goal {
             file.put(self.goal, header.stamp, &pose_message(&header, &pose));
         }
-        if let Some(way) = explorer.path() {
+        if let Some(way) = &decision.path {
             file.put(self.path, header.stamp, &path_message(&header, &way.poses));
         }
     }

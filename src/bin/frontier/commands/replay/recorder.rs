@@ -198,7 +198,7 @@ impl Watcher<FileRobot> for Recorder<'_> {
         self.trail.after_step(explorer, observation, decision);
         self.agreement.after_step(robot.recorded_goals(), decision, observation.stamp_s);
         if let (Some(_), Some(out_bag), Some(map)) = (&decision.record, &self.out_bag, &observation.map) {
-            out_bag.decided(robot.now_s(), explorer, map.grid.info().resolution_m());
+            out_bag.decided(robot.now_s(), decision, explorer.goal(), map.grid.info().resolution_m());
         }
         if let Err(error) = self.picture(robot, observation) {
             self.failed.get_or_insert(error);

@@ -1,0 +1,335 @@
+//! One decision: detect, assess, rank, and take the first to which there is a way; and
+//! where there is none, look once more with other eyes.
+
+mod beside;
+
+use super::assess::{Assessed, Assessor, rank};
+use super::audit::Audit;
+use super::behind::unknown_behind_m2;
+use super::blacklist::{Blacklist, SAME_PLACE_M};
+use super::decided::{Audited, Choice, Decided, count, explain};
+use super::record::{CandidateStatus, DecisionRecord, SeenFrontiers};
+use super::settings::ExplorerSettings;
+use super::sight::Sights;
+use super::stages::stage;
+use super::standing::{GoalHeading, StandingGoal, StandingSearch};
+use super::traits::RobotTraits;
+use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
+use crate::geometry::{Path, Point, Pose};
+use crate::grid::{Costmap, LiveCostmap, Roomy, Snapshot, Thresholds};
+use crate::planning::{Astar, Driven, GlobalPlanner, Opened, Passable, PathField, PlanError};
+use crate::robot::{MapSnapshot, Observation};
+use crate::selection::GoalSelector;
+use std::sync::Arc;
+
+/// What a decision is made on, besides the map.
+pub struct Situation<'a> {
+    /// The settings.
+    pub settings: &'a ExplorerSettings,
+    /// What failed or was visited.
+    pub blacklist: &'a Blacklist,
+    /// Where the robot was.
+    pub sights: &'a Sights,
+    /// Where it drove.
+    pub driven: &'a Driven,
+    /// Where it is.
+    pub robot: Pose,
+    /// It has arrived, and the map may be of before.
+    pub awaits_map: bool,
+    /// The frontier beside the way that it is on its way to, if it is.
+    pub beside: Option<Point>,
+}
+
+/// The algorithms that a decision wires together.
+pub struct Lookout {
+    detector: Box<dyn FrontierDetector>,
+    selector: Box<dyn GoalSelector>,
+    planner: Box<dyn GlobalPlanner>,
+    guide: Astar,
+    thresholds: Thresholds,
+    standing: StandingSearch,
+    tracker: FrontierTracker,
+    audit: Audit,
+    frontiers: Arc<SeenFrontiers>,
+    path: Option<Arc<Path>>,
+    costs: Costs,
+}
+
+/// The costmaps of a decision, one made of the other and each kept up to date.
+struct Costs {
+    /// Our own, where the map comes without one.
+    own: LiveCostmap,
+    /// For a robot that keeps to where it can turn.
+    roomy: Roomy,
+    /// The same, and what was driven through stays open.
+    opened: Opened,
+    passable: Passable,
+}
+
+/// What became of the frontiers of one detector.
+struct Weighed {
+    assessed: Vec<Assessed>,
+    choice: Option<Choice>,
+}
+
+impl Lookout {
+    /// The algorithms that the settings name, for a robot.
+    pub fn new(settings: &ExplorerSettings, robot: &RobotTraits) -> Self {
+        Self {
+            detector: settings.detector.name.build(&settings.detector_params()),
+            selector: settings.selection.build(),
+            planner: settings.planner.build(&robot.body),
+            guide: Astar::default(),
+            thresholds: settings.thresholds,
+            standing: StandingSearch::default(),
+            tracker: FrontierTracker::new(),
+            audit: Audit::new(robot, settings.thresholds),
+            frontiers: Arc::default(),
+            path: None,
+            costs: Costs {
+                own: LiveCostmap::new(settings.thresholds, robot.inflation),
+                roomy: Roomy::default(),
+                opened: Opened::default(),
+                passable: Passable::default(),
+            },
+        }
+    }
+
+    /// Asks another planner for the way to a candidate, such as move_base's own.
+    pub fn set_planner(&mut self, planner: Box<dyn GlobalPlanner>) {
+        self.planner = planner;
+    }
+
+    /// The frontiers of the last decision.
+    pub const fn frontiers(&self) -> &Arc<SeenFrontiers> {
+        &self.frontiers
+    }
+
+    /// The way to the goal that was chosen last.
+    pub const fn path(&self) -> Option<&Arc<Path>> {
+        self.path.as_ref()
+    }
+
+    /// Whether the robot's centre may be at a point of the map.
+    pub fn can_stand(&mut self, map: &MapSnapshot, point: Point) -> bool {
+        let costmap = self.costs.of(map).cells;
+        costmap.is_passable(costmap.info().cell_at(point))
+    }
+
+    /// Weighs the frontiers of a map; of the observation, time and scan count.
+    ///
+    /// # Errors
+    /// [`DetectError`] when this map gives no answer; that is not "no frontier".
+    pub fn decide(
+        &mut self,
+        situation: &Situation<'_>,
+        observation: &Observation,
+        map: &MapSnapshot,
+    ) -> Result<Decided, DetectError> {
+        let (grid, robot) = (&map.grid, situation.robot);
+        let tight = self.costs.of(map);
+        let roomy = self.costs.roomy.update(&tight);
+        let open = self.costs.opened.update(situation.driven, &roomy, &robot);
+        let scan = observation.scan.as_ref().map(|(lidar_in_map, scan)| (lidar_in_map, &**scan));
+        let changes = Some(&map.changes);
+        let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&open.cells), scan, changes };
+        let mut frontiers = self.detector.detect(&input)?;
+        let names = self.tracker.update(&frontiers, grid.info());
+        for (frontier, name) in frontiers.iter_mut().zip(names) {
+            frontier.id = name.get();
+        }
+        self.frontiers = Arc::new(SeenFrontiers::new(*grid.info(), frontiers.clone()));
+        // A robot that stands where it cannot reaches nothing: the recovery turn and
+        // the next map may free it.
+        let needs_ways = self.selector.needs().way;
+        let passable = self.costs.passable.update(&open);
+        let mut field = PathField::on(Arc::clone(&open.cells), passable, &robot, needs_ways).ok();
+        let mut weighed = self.weigh(&frontiers, situation, map, field.as_ref());
+        let has_nothing = |weighed: &Weighed| weighed.choice.is_none() && nearest_here(&weighed.assessed).is_none();
+        if has_nothing(&weighed) && !Arc::ptr_eq(&tight.cells, &roomy.cells) {
+            // Only now by ways on which the robot fits and cannot turn.
+            let search = if needs_ways { PathField::new } else { PathField::reach_only };
+            field = search(situation.driven.open(&tight.cells, &robot), &robot).ok();
+            weighed = self.weigh(&frontiers, situation, map, field.as_ref());
+        }
+        let mut audit = None;
+        if has_nothing(&weighed) {
+            let raw = self.audit.frontiers(map, robot)?;
+            let mut second = self.weigh(&raw, situation, map, field.as_ref());
+            let mut audited = self.audit_of(&second, situation, map, field.as_ref());
+            if !situation.settings.finish.explore_what_the_audit_sees {
+                let open = |a: &&Assessed| {
+                    matches!(
+                        a.record.status,
+                        CandidateStatus::Chosen | CandidateStatus::Eligible | CandidateStatus::AlreadyThere
+                    )
+                };
+                audited.forbidden = second.assessed.iter().filter(open).count();
+                audited.forbidden_m = second.assessed.iter().filter(open).map(|a| a.record.size_m).sum();
+                second.choice = None;
+            }
+            if second.choice.is_some() {
+                self.frontiers = Arc::new(SeenFrontiers::new(*grid.info(), raw.clone()));
+            }
+            frontiers = raw;
+            (weighed, audit) = (second, Some(audited));
+        }
+        if let Some(field) = &field {
+            self.look_beside(&mut weighed, situation, map, field)?;
+        }
+        let Weighed { assessed, choice } = weighed;
+        let mut left_behind = count(&assessed);
+        let wants_area = choice.is_none() || situation.settings.finish.good_enough_share.is_some();
+        if wants_area {
+            let is_inside = |f: &&Frontier| {
+                let status = assessed.iter().find(|a| a.record.id == f.id).map(|a| a.record.status);
+                status != Some(CandidateStatus::OutsideRegion)
+            };
+            left_behind.area_m2 = unknown_behind_m2(frontiers.iter().filter(is_inside), grid, &self.thresholds);
+        }
+        let is_forbidden = audit.is_some_and(|audit| audit.forbidden > 0);
+        let here = if choice.is_none() && !is_forbidden { nearest_here(&assessed) } else { None };
+        let mut why = explain(&assessed, choice.as_ref(), self.selector.name(), &left_behind);
+        if audit.is_some() && choice.is_some() {
+            why.insert_str(0, "the preset sees nothing more, the audit does: ");
+        }
+        let record = DecisionRecord {
+            time_s: observation.stamp_s,
+            pose: robot,
+            candidates: assessed.into_iter().map(|a| a.record).collect(),
+            goal: choice.map(|c| c.goal),
+            why,
+        };
+        Ok(Decided { record, choice, here, left_behind, audit })
+    }
+
+    /// Assesses and ranks frontiers, and takes the first to which there is a way.
+    fn weigh(
+        &mut self,
+        frontiers: &[Frontier],
+        situation: &Situation<'_>,
+        map: &MapSnapshot,
+        field: Option<&PathField>,
+    ) -> Weighed {
+        let assessor = self.assessor(situation, map, field);
+        let standing = &mut self.standing;
+        let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| assessor.assess(f, standing)).collect();
+        let eligible = rank(&mut assessed, &mut *self.selector, situation.robot);
+        let choice =
+            field.and_then(|field| self.first_with_a_way(&mut assessed[..eligible], field.costmap(), &situation.robot));
+        Weighed { assessed, choice }
+    }
+
+    fn assessor<'a>(
+        &self,
+        situation: &Situation<'a>,
+        map: &'a MapSnapshot,
+        field: Option<&'a PathField>,
+    ) -> Assessor<'a> {
+        Assessor {
+            settings: situation.settings,
+            grid: &map.grid,
+            needs: self.selector.needs(),
+            field,
+            blacklist: situation.blacklist,
+            sights: situation.sights,
+            map_s: map.stamp_s,
+            awaits_map: situation.awaits_map,
+            robot: situation.robot,
+        }
+    }
+
+    /// What bars the way to the frontiers that are left.
+    fn audit_of(
+        &mut self,
+        weighed: &Weighed,
+        situation: &Situation<'_>,
+        map: &MapSnapshot,
+        field: Option<&PathField>,
+    ) -> Audited {
+        let robot = &situation.robot;
+        let unreachable = |a: &&Assessed| a.record.status == CandidateStatus::Unreachable;
+        let in_pocket = field.is_none_or(|field| field.area_m2() < POCKET_M2);
+        let mut barred = 0;
+        if weighed.assessed.iter().any(|a| unreachable(&a)) {
+            let widest = self.audit.widest_reach(&map.grid, situation.driven, robot);
+            let radius_m = situation.settings.goal.search_radius_m;
+            let standing = &mut self.standing;
+            let mut could_see = |a: &&Assessed| {
+                // What the robot has looked at from as near as it gets is left only where its body
+                // would get through: a nook of which a step nearer shows a little more is not.
+                let nearer_m = |spent_m: f64| (spent_m - SAME_PLACE_M).min(THROUGH_M);
+                let radius_m = a.spent_m.map_or(radius_m, nearer_m);
+                if radius_m <= 0.0 {
+                    return false;
+                }
+                let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
+                // The search counts whole cells.
+                let near_m = radius_m + 0.71 * map.grid.info().resolution_m();
+                let place = widest.as_ref().and_then(|field| standing.goal(field, robot, a.target, &search));
+                place.is_some_and(|place| place.distance_to(a.target) <= near_m)
+            };
+            barred = weighed.assessed.iter().filter(unreachable).filter(|a| could_see(a)).count();
+        }
+        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket }
+    }
+
+    /// Asks the planner in order of rank; what has no path says so in its record. When
+    /// none has, and the planner gave up on some before it knew, part of the way to the
+    /// first of these is taken.
+    fn first_with_a_way(&mut self, ranked: &mut [Assessed], costmap: &Costmap, robot: &Pose) -> Option<Choice> {
+        let mut given_up = Vec::new();
+        for (index, assessed) in ranked.iter_mut().enumerate() {
+            let Some(goal) = assessed.candidate.as_ref().map(|c| c.goal) else { continue };
+            match self.planner.plan(costmap, robot, &goal) {
+                Ok(path) => {
+                    let choice = assessed.choose(goal, &path, false);
+                    self.path = Some(Arc::new(path));
+                    return Some(choice);
+                }
+                Err(error) => {
+                    assessed.record.status = CandidateStatus::NoPath;
+                    if matches!(error, PlanError::IterationLimit { .. }) {
+                        given_up.push((index, goal));
+                    }
+                }
+            }
+        }
+        given_up.into_iter().find_map(|(index, goal)| {
+            let (place, path) = stage(&mut *self.planner, &mut self.guide, costmap, robot, &goal)?;
+            let choice = ranked.get_mut(index)?.choose(place, &path, true);
+            self.path = Some(Arc::new(path));
+            Some(choice)
+        })
+    }
+}
+
+impl Costs {
+    /// The costmap that came with the map, or our own.
+    fn of(&mut self, map: &MapSnapshot) -> Snapshot<Costmap> {
+        map.costmap.clone().unwrap_or_else(|| self.own.update(&map.grid, &map.changes))
+    }
+}
+
+/// A body that can be as near to a frontier as this gets through it, metres.
+const THROUGH_M: f64 = 0.15;
+/// A place smaller than this is a pocket and not the robot's world, square metres.
+const POCKET_M2: f64 = 1.0;
+
+impl Assessed {
+    /// Makes it the choice of its decision.
+    fn choose(&mut self, goal: Pose, path: &Path, is_stage: bool) -> Choice {
+        self.record.path_m = Some(path.length_m());
+        self.record.status = CandidateStatus::Chosen;
+        Choice { goal, target: self.target, is_stage, is_beside: false }
+    }
+}
+
+/// The nearest frontier that is seen from where the robot stands.
+fn nearest_here(assessed: &[Assessed]) -> Option<Point> {
+    assessed
+        .iter()
+        .filter(|a| a.record.status == CandidateStatus::AlreadyThere)
+        .min_by(|a, b| a.record.distance_m.total_cmp(&b.record.distance_m))
+        .map(|a| a.target)
+}

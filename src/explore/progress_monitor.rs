@@ -1,0 +1,83 @@
+//! Tells whether the robot comes nearer to its goal, or has made no progress for too long.
+
+use crate::geometry::{Pose, shortest_angle};
+
+/// Watches for a robot that stays at the same position for too long.
+#[derive(Clone, Copy, Debug)]
+pub struct ProgressMonitor {
+    anchor: Pose,
+    since_s: f64,
+    /// Where it was when it last moved at all, and when.
+    still: (Pose, f64),
+    has_moved: bool,
+}
+
+/// Motion below this is standing still, metres and radians.
+const STILL_M: f64 = 0.05;
+const STILL_RAD: f64 = 0.15;
+
+impl ProgressMonitor {
+    /// Starts watching at a pose and a time in seconds.
+    #[must_use]
+    pub const fn new(pose: &Pose, now_s: f64) -> Self {
+        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s), has_moved: false }
+    }
+
+    /// Seconds since the robot was last `distance_m` away from where it is now.
+    pub fn stuck_for_s(&mut self, pose: &Pose, now_s: f64, distance_m: f64) -> f64 {
+        if pose.distance_to(self.anchor.position()) >= distance_m {
+            (self.anchor, self.since_s) = (*pose, now_s);
+        }
+        now_s - self.since_s
+    }
+
+    /// Seconds since the robot last moved or turned at all.
+    pub fn still_for_s(&mut self, pose: &Pose, now_s: f64) -> f64 {
+        let (last, since_s) = self.still;
+        let has_moved =
+            pose.distance_to(last.position()) >= STILL_M || shortest_angle(last.yaw, pose.yaw).abs() >= STILL_RAD;
+        if has_moved {
+            (self.still, self.has_moved) = ((*pose, now_s), true);
+            return 0.0;
+        }
+        now_s - since_s
+    }
+
+    /// Whether it has moved or turned since the watching began.
+    #[must_use]
+    pub const fn has_moved(&self) -> bool {
+        self.has_moved
+    }
+
+    /// Forgives the time in which the robot was not meant to move.
+    pub const fn pause(&mut self, now_s: f64) {
+        self.since_s = now_s;
+        self.still.1 = now_s;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moving_resets_and_trembling_does_not() {
+        let mut monitor = ProgressMonitor::new(&Pose::default(), 0.0);
+        assert_eq!(monitor.stuck_for_s(&Pose::new(0.1, 0.0, 0.0), 5.0, 0.25), 5.0);
+        assert_eq!(monitor.stuck_for_s(&Pose::new(0.3, 0.0, 0.0), 6.0, 0.25), 0.0);
+        assert_eq!(monitor.stuck_for_s(&Pose::new(0.2, 0.0, 0.0), 9.0, 0.25), 3.0);
+        monitor.pause(20.0);
+        assert_eq!(monitor.stuck_for_s(&Pose::new(0.2, 0.0, 0.0), 21.0, 0.25), 1.0);
+    }
+
+    #[test]
+    fn turning_is_no_standing_still() {
+        let mut monitor = ProgressMonitor::new(&Pose::default(), 0.0);
+        assert_eq!(monitor.still_for_s(&Pose::new(0.02, 0.0, 0.1), 4.0), 4.0);
+        assert!(!monitor.has_moved());
+        assert_eq!(monitor.still_for_s(&Pose::new(0.0, 0.0, 0.2), 5.0), 0.0);
+        assert!(monitor.has_moved());
+        assert_eq!(monitor.still_for_s(&Pose::new(0.04, 0.0, 0.2), 9.0), 4.0);
+        assert_eq!(monitor.still_for_s(&Pose::new(0.06, 0.0, 0.2), 10.0), 0.0);
+    }
+}

@@ -1,0 +1,164 @@
+//! Frontiers by image processing, each with its minimum enclosing circle.
+//!
+//! Liang, Wang and Li, "Autonomous Exploration Based on Image Processing" (2020), eqs.
+//! 1 to 6: the obstacle layer is eroded with a rectangle B, which widens the obstacles
+//! of the map (M_e); a cell of M_e is a frontier point when a step between free and
+//! unknown lies between it and its left or lower neighbour; the frontier points are
+//! dilated with B, and each connected component of the result is a frontier with the
+//! minimum enclosing circle of its cells. O(cells of the grid), on planes of bits, and for
+//! each cell of half of B a small part of that.
+//!
+//! | parameter | unit | paper |
+//! |---|---|---|
+//! | `element_m` | side of the square B, metres | not said |
+//! | `neighbours` | what is connected after the dilation | not said; 8 is OpenCV's default |
+//!
+//! The cells of a frontier are its points of eq. 5, on either side of the boundary. The
+//! circle is that of the dilated component, between centres of cells, and so has a
+//! radius of about half of B at least. B has an odd number of cells: its half is
+//! rounded. The paper takes 65 as free (`occupied_min: 66, free_max: 65`). With
+//! [`Reachability::WallsBlock`](super::Reachability) only steps at free cells
+//! connected to the robot's count; obstacles are not widened for that connection.
+
+use crate::bits::BitPlane;
+use crate::bits::runs::Run;
+use crate::frontier::papers::territory::{Territory, components, with_neighbours};
+use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, order};
+use crate::geometry::{Circle, Point};
+use crate::grid::{Cell, GridInfo, Neighbourhood};
+use crate::range::OutOfRange;
+use serde::{Deserialize, Serialize};
+
+/// Half of B in cells, where the resolution would ask for more: what a byte counts.
+const MAX_HALF_CELLS: f64 = 254.0;
+
+/// Parameters of the image processing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ImageParams {
+    /// Side of the square structuring element B, metres.
+    pub element_m: f64,
+}
+
+impl Default for ImageParams {
+    fn default() -> Self {
+        Self { element_m: 0.3 }
+    }
+}
+
+impl ImageParams {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// [`OutOfRange`] that names the key, the value and what is allowed.
+    pub fn validate(&self) -> Result<(), OutOfRange> {
+        let side = self.element_m;
+        OutOfRange::unless((0.0..=5.0).contains(&side), "detector.image.element_m", side, "within 0 to 5 m")
+    }
+
+    /// How far B reaches to each side of its centre, cells.
+    fn half_cells(&self, info: &GridInfo) -> u8 {
+        info.cells(0.5 * self.element_m).round().clamp(0.0, MAX_HALF_CELLS) as u8
+    }
+}
+
+/// The detector.
+#[derive(Clone, Debug)]
+pub struct ImageDetector {
+    params: DetectorParams,
+}
+
+impl ImageDetector {
+    /// A detector with these parameters.
+    #[must_use]
+    pub const fn new(params: DetectorParams) -> Self {
+        Self { params }
+    }
+}
+
+impl FrontierDetector for ImageDetector {
+    fn name(&self) -> &'static str {
+        "image"
+    }
+
+    fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
+        let info = input.grid.info();
+        let territory = Territory::of(input, &self.params)?;
+        let half = self.params.image.half_cells(info);
+        // Eroding S is dilating its complement, the obstacles.
+        let obstacles = dilated(&territory.planes.occupied(), half);
+        let mut open = territory.open;
+        let mut unknown = territory.planes.unknown().clone();
+        open.subtract(&obstacles);
+        unknown.subtract(&obstacles);
+        let points = frontier_points(&open, &unknown);
+        let min_cells = self.params.min_cells(info);
+        let frontiers = components(&dilated(&points, half), self.params.neighbours).into_iter().map(|component| {
+            let circle = circle_of_runs(info, &component);
+            Frontier { id: 0, cells: set_cells(&points, &component).into(), side: CellSide::Either, circle }
+        });
+        Ok(order(frontiers.filter(|f| f.cells.len() >= min_cells).collect()))
+    }
+}
+
+/// Eq. 5: the cells with a step between open and unknown to the left of or below them.
+fn frontier_points(open: &BitPlane, unknown: &BitPlane) -> BitPlane {
+    let mut points = BitPlane::new(open.width(), open.height());
+    for y in 0..points.height() {
+        let (open_row, unknown_row) = (open.row(y), unknown.row(y));
+        let (mut open_left, mut unknown_left) = (0, 0);
+        for ((point, &open), &unknown) in points.row_mut(y).iter_mut().zip(open_row).zip(unknown_row) {
+            *point = open & (unknown << 1 | unknown_left >> 63) | unknown & (open << 1 | open_left >> 63);
+            (open_left, unknown_left) = (open, unknown);
+        }
+        let Some(below) = y.checked_sub(1) else { continue };
+        let below = open.row(below).iter().zip(unknown.row(below));
+        let here = points.row_mut(y).iter_mut().zip(open_row.iter().zip(unknown_row));
+        for ((point, (open, unknown)), (open_below, unknown_below)) in here.zip(below) {
+            *point |= open & unknown_below | unknown & open_below;
+        }
+    }
+    points
+}
+
+/// A plane dilated with a square that reaches `half` cells to each side.
+fn dilated(plane: &BitPlane, half: u8) -> BitPlane {
+    let grown = |plane: BitPlane, _| with_neighbours(&plane, Neighbourhood::Eight);
+    (0..half).fold(plane.clone(), grown)
+}
+
+/// The set cells among those of runs, row-major.
+fn set_cells(plane: &BitPlane, runs: &[(usize, Run)]) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for &(y, run) in runs {
+        let mut from = run.start as usize;
+        while let Some(x) = plane.first_in(y, from..run.end as usize) {
+            cells.push(Cell::new(x as i32, y as i32));
+            from = x + 1;
+        }
+    }
+    cells
+}
+
+/// The minimum enclosing circle of the centres of a component's cells, in the map frame.
+fn circle_of_runs(info: &GridInfo, runs: &[(usize, Run)]) -> Option<Circle> {
+    // Only the ends of each row can be on the rim.
+    let rows = runs.chunk_by(|a, b| a.0 == b.0).filter_map(|row| row.first().zip(row.last()));
+    let ends = rows.flat_map(|(&(y, first), &(_, last))| [first.start, last.end - 1].map(|x| (x, y)));
+    let points: Vec<Point> = ends.map(|(x, y)| info.center(Cell::new(x as i32, y as i32))).collect();
+    Circle::enclosing(&points)
+}
+
+/// The minimum enclosing circle of the cells' centres, in the map frame.
+pub(crate) fn enclosing_circle(info: &GridInfo, cells: &[Cell]) -> Option<Circle> {
+    let mut sorted = cells.to_vec();
+    sorted.sort_unstable_by_key(|cell| (cell.y, cell.x));
+    // Only the ends of each row can be on the rim.
+    let ends = sorted.chunk_by(|a, b| a.y == b.y).flat_map(|row| row.first().into_iter().chain(row.last()));
+    let points: Vec<Point> = ends.map(|&cell| info.center(cell)).collect();
+    Circle::enclosing(&points)
+}
+
+#[cfg(test)]
+#[path = "image_tests.rs"]
+mod tests;

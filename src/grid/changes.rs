@@ -1,0 +1,91 @@
+//! Which cells of a map changed from version to version, for whoever keeps something that was
+//! made of an earlier one.
+
+use super::CellRect;
+use std::sync::Arc;
+
+/// So many versions are remembered: a consumer that looks more rarely looks at all cells.
+const REMEMBERED: usize = 64;
+
+/// The rectangles that changed in the last versions of a map. A consumer names the version that
+/// it knows, whichever it skipped, and is told where it has to look.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Changes {
+    version: u64,
+    /// What each of the last versions changed, the newest last.
+    recent: Arc<[CellRect]>,
+}
+
+impl Changes {
+    /// A version of which nothing earlier is known.
+    #[must_use]
+    pub fn beginning_at(version: u64) -> Self {
+        Self { version, recent: Arc::default() }
+    }
+
+    /// The next version, of which only a rectangle differs.
+    #[must_use]
+    pub fn then(&self, changed: CellRect) -> Self {
+        let kept = self.recent.iter().skip((self.recent.len() + 1).saturating_sub(REMEMBERED));
+        Self { version: self.version + 1, recent: kept.copied().chain([changed]).collect() }
+    }
+
+    /// The next version, of which all may differ: a map of another size or place.
+    #[must_use]
+    pub fn then_all(&self) -> Self {
+        Self::beginning_at(self.version + 1)
+    }
+
+    /// The next version, of which a rectangle differs where that is known, and else all may.
+    #[must_use]
+    pub fn then_known(&self, changed: Option<CellRect>) -> Self {
+        changed.map_or_else(|| self.then_all(), |changed| self.then(changed))
+    }
+
+    /// The newest version.
+    #[must_use]
+    pub const fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// The smallest rectangle known to hold all that changed since a version, empty for the
+    /// newest; `None` when all may have: the version is too old, unknown, or was of another size.
+    /// Version 0 stands for a map that has none, of which nothing is known.
+    #[must_use]
+    pub fn since(&self, version: u64) -> Option<CellRect> {
+        if version == 0 {
+            return None;
+        }
+        let missed = usize::try_from(self.version.checked_sub(version)?).ok()?;
+        let first = self.recent.len().checked_sub(missed)?;
+        Some(self.recent[first..].iter().copied().fold(CellRect::default(), CellRect::union))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn rect(x: usize, width: usize) -> CellRect {
+        CellRect { x, y: 2, width, height: 1 }
+    }
+
+    #[test]
+    fn skipped_versions_add_up() {
+        let changes = Changes::beginning_at(5).then(rect(3, 2)).then(rect(8, 0)).then(rect(10, 1));
+        assert_eq!(changes.version(), 8);
+        assert_eq!(changes.since(8), Some(CellRect::default()));
+        assert_eq!(changes.since(7), Some(rect(10, 1)));
+        assert_eq!(changes.since(5), Some(rect(3, 8)));
+        assert_eq!((changes.since(4), changes.since(9)), (None, None), "before the beginning, and to come");
+        assert_eq!(changes.then_all().since(8), None);
+    }
+
+    #[test]
+    fn what_is_long_past_is_forgotten() {
+        let changes = (1..101).fold(Changes::beginning_at(1), |changes, x| changes.then(rect(x, 1)));
+        assert_eq!(changes.since(101 - REMEMBERED as u64), Some(rect(101 - REMEMBERED, REMEMBERED)));
+        assert_eq!(changes.since(100 - REMEMBERED as u64), None);
+        assert_eq!(Changes::default().since(0), None);
+    }
+}
