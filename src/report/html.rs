@@ -4,10 +4,12 @@
 //! file. What the computer took is left out: the same run gives the same page.
 
 use super::ReportError;
+use super::beside::Beside;
 use super::plots;
 use super::run_json::RunRecord;
 use super::series::COVERAGE_SHARES;
 use super::theme::{Ink, Rgb, Theme};
+use crate::explore::Counts;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use minijinja::Environment;
@@ -20,6 +22,8 @@ const TEMPLATE: &str = include_str!("report.html.j2");
 
 /// Candidates of a decision that the page shows; the rest is counted.
 const SHOWN_CANDIDATES: usize = 15;
+/// Decisions that are not the recording's that the page shows; the rest is counted.
+const SHOWN_PARTINGS: usize = 50;
 
 /// What a page is made of.
 #[derive(Clone, Copy, Debug)]
@@ -32,12 +36,16 @@ pub struct HtmlReport<'a, D> {
     pub animation_gif: Option<&'a [u8]>,
     /// The colours of both, for the legend.
     pub theme: Theme,
+    /// What the recording decided, if the run is one.
+    pub beside: Option<&'a Beside>,
 }
 
 /// What the template fills in.
 #[derive(Serialize)]
 struct Page<'a, D> {
     run: &'a RunRecord<D>,
+    beside: Option<&'a Beside>,
+    shown_partings: usize,
     headline: String,
     figures: Vec<Figure>,
     milestones: Vec<[String; 3]>,
@@ -79,8 +87,10 @@ impl<D: Serialize> HtmlReport<'_, D> {
         environment.add_template(TEMPLATE_NAME, TEMPLATE)?;
         let page = Page {
             run: self.run,
+            beside: self.beside,
+            shown_partings: SHOWN_PARTINGS,
             headline: headline(self.run),
-            figures: figures(self.run),
+            figures: if is_recording(self.run) { recorded_figures(self.run, self.beside) } else { figures(self.run) },
             milestones: milestones(self.run),
             time_spent: time_spent(self.run),
             legend: legend(self.theme),
@@ -98,7 +108,7 @@ impl<D: Serialize> HtmlReport<'_, D> {
 /// Why it ended and what it came to, in a sentence or two.
 fn headline<D>(run: &RunRecord<D>) -> String {
     // A recording has no seed, and nobody knows how large its world was.
-    if run.seed.is_none() {
+    if is_recording(run) {
         let (area_m2, time) = (run.known_area_m2, clock(run.sim_time_s));
         return format!("{}; {area_m2:.1} m² were mapped in {time} and {:.1} m.", run.end_message, run.distance_m);
     }
@@ -111,6 +121,30 @@ fn headline<D>(run: &RunRecord<D>) -> String {
     )
 }
 
+/// Whether the run is a replay of a recording: nobody drew its random numbers.
+const fn is_recording<D>(run: &RunRecord<D>) -> bool {
+    run.seed.is_none()
+}
+
+/// The figures at the top of the page of a recording: what it shows, and how far we agree.
+fn recorded_figures<D>(run: &RunRecord<D>, beside: Option<&Beside>) -> Vec<Figure> {
+    let figure = |name, value| Figure { name, value };
+    let mut figures = vec![
+        figure("time", clock(run.sim_time_s)),
+        figure("distance", format!("{:.1} m", run.distance_m)),
+        figure("turned", format!("{:.1} turns", run.turned_rad / std::f64::consts::TAU)),
+        figure("area mapped", format!("{:.1} m²", run.known_area_m2)),
+        figure("our decisions", run.decisions.len().to_string()),
+        figure("frontiers left", run.left_behind.frontiers.to_string()),
+    ];
+    if let Some(beside) = beside {
+        figures.push(figure("recorded goals", beside.recorded_goals.to_string()));
+        figures.push(figure("at frontiers that we saw", format!("{} of {}", beside.at_frontiers, beside.recorded_goals)));
+        figures.push(figure("agreement", format!("{} of {}", beside.agreeing, beside.decisions)));
+    }
+    figures
+}
+
 /// The figures at the top of the page.
 fn figures<D>(run: &RunRecord<D>) -> Vec<Figure> {
     let figure = |name, value| Figure { name, value };
@@ -120,11 +154,18 @@ fn figures<D>(run: &RunRecord<D>) -> Vec<Figure> {
         figure("distance", format!("{:.1} m", run.distance_m)),
         figure("turned", format!("{:.1} turns", run.turned_rad / std::f64::consts::TAU)),
         figure("goals reached", format!("{} of {}", run.counts.goals_reached, run.goals_sent)),
+        figure("seen or replaced on the way", on_the_way(&run.counts).to_string()),
         figure("goals failed", run.goals_failed.to_string()),
         figure("area mapped", format!("{:.1} m²", run.known_area_m2)),
         figure("frontiers left", run.left_behind.frontiers.to_string()),
         figure("collisions", run.collisions.to_string()),
     ]
+}
+
+/// Goals that were neither reached nor failed: their frontiers were seen before the robot was
+/// there, or another goal was better by then.
+const fn on_the_way(counts: &Counts) -> usize {
+    counts.goals_sent.saturating_sub(counts.goals_reached + counts.goals_failed)
 }
 
 /// Where the time went: what for, how long, and its share.
@@ -197,10 +238,12 @@ fn clock(time_s: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::report::{BesideRow, sample};
 
     fn page(gif: Option<&[u8]>) -> String {
-        HtmlReport { run: &sample::run(), map_png: b"png", animation_gif: gif, theme: Theme::Clear }.to_html().unwrap()
+        let run = sample::run();
+        let report = HtmlReport { run: &run, map_png: b"png", animation_gif: gif, theme: Theme::Clear, beside: None };
+        report.to_html().unwrap()
     }
 
     #[test]
@@ -213,6 +256,30 @@ mod tests {
         }
         assert_eq!(page, self::page(Some(b"gif")));
         assert!(!self::page(None).contains("image/gif"));
+    }
+
+    /// What nobody can know of a recording is not on its page, and what it decided is.
+    #[test]
+    fn the_page_of_a_recording_has_its_decisions_beside_ours() {
+        let run = RunRecord { seed: None, ..sample::run() };
+        let beside = Beside {
+            recorded_goals: 7,
+            at_frontiers: 5,
+            decisions: 6,
+            agreeing: 4,
+            causes: vec![("the recording's goal was <taboo>".to_owned(), 2)],
+            partings: vec![BesideRow { time_s: 12.34, ours: Some([1.0, -2.0]), recorded: None, cause: "why".to_owned() }],
+        };
+        let (map_png, theme) = (&b""[..], Theme::Clear);
+        let page = HtmlReport { run: &run, map_png, animation_gif: None, theme, beside: Some(&beside) }.to_html().unwrap();
+        for there in ["4 of 6", "5 of 7", "goal was &lt;taboo&gt;", "12.3 s", "(1.00, -2.00)", "Distance over time"] {
+            assert!(page.contains(there), "{there}");
+        }
+        for unknown in ["collisions", "goals reached", "Coverage over time", "When coverage was reached"] {
+            assert!(!page.contains(unknown), "{unknown}");
+        }
+        let simulated = self::page(None);
+        assert!(simulated.contains("collisions") && !simulated.contains("The recording beside us"));
     }
 
     #[test]
@@ -230,8 +297,9 @@ mod tests {
             point.coverage = (point.coverage * 1e6).round() / 1e6;
         }
         let read = RunRecord::<serde_json::Value>::from_json(&run.to_json().unwrap()).unwrap();
-        let from_run = HtmlReport { run: &run, map_png: b"", animation_gif: None, theme: Theme::Clear };
-        let from_file = HtmlReport { run: &read, map_png: b"", animation_gif: None, theme: Theme::Clear };
+        let (map_png, animation_gif, theme) = (&b""[..], None, Theme::Clear);
+        let from_run = HtmlReport { run: &run, map_png, animation_gif, theme, beside: None };
+        let from_file = HtmlReport { run: &read, map_png, animation_gif, theme, beside: None };
         assert_eq!(from_run.to_html().unwrap(), from_file.to_html().unwrap());
     }
 

@@ -5,6 +5,7 @@
 //! same run gives the same bytes.
 
 mod animation;
+mod beside;
 mod canvas;
 mod comparison;
 mod frame_log;
@@ -20,6 +21,7 @@ mod shapes;
 mod theme;
 mod view;
 
+pub use beside::{Beside, BesideRow};
 pub use animation::Animation;
 pub use canvas::Canvas;
 pub use comparison::{

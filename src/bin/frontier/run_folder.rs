@@ -6,7 +6,7 @@ use frontier_explorer::explore::ExplorerSettings;
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::OccupancyGrid;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
-use frontier_explorer::report::{Animation, FrameLog, HtmlReport, Picture, ReportError, RunRecord, Theme};
+use frontier_explorer::report::{Animation, Beside, FrameLog, HtmlReport, Picture, ReportError, RunRecord, Theme};
 use std::path::{Path, PathBuf};
 
 /// A folder that exists, and the name of the animation in it.
@@ -43,6 +43,7 @@ impl RunFolder {
         grid: &OccupancyGrid,
         end_in_map: Option<Pose>,
         settings: &ExplorerSettings,
+        beside: Option<&Beside>,
     ) -> anyhow::Result<Vec<PathBuf>> {
         save_map(&self.path("map.yaml"), grid, &SaveOptions::default())?;
         self.save("run.json", &record.to_json()?)?;
@@ -68,7 +69,8 @@ impl RunFolder {
         if let Some(gif) = &gif {
             self.save(self.animation, gif)?;
         }
-        let html = HtmlReport { run: record, map_png: &map_png, animation_gif: gif.as_deref(), theme: Theme::Clear };
+        let animation_gif = gif.as_deref();
+        let html = HtmlReport { run: record, map_png: &map_png, animation_gif, theme: Theme::Clear, beside };
         self.save("report.html", html.to_html()?.as_bytes())?;
         let animation = gif.is_none().then(|| self.path(self.animation));
         Ok(self.files().filter(|path| Some(path) != animation.as_ref()).collect())

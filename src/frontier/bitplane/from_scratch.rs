@@ -30,6 +30,8 @@ pub struct FromScratch {
     /// The cells that the search walks on.
     entered: BitPlane,
     lazy_fill: LazyFill,
+    /// The last map was done with by the fill alone.
+    was_lazy: bool,
     connected: Connectivity,
     clusters: Clusters,
     found: Arc<FrontierCells>,
@@ -46,6 +48,7 @@ impl FromScratch {
             planes: BitPlanes::default(),
             entered: BitPlane::default(),
             lazy_fill: LazyFill::default(),
+            was_lazy: false,
             connected: Connectivity::by(params.search_neighbours()),
             clusters: Clusters::default(),
             found: Arc::default(),
@@ -67,7 +70,9 @@ impl FromScratch {
         let Self { params, planes, entered, lazy_fill, .. } = self;
         let found = FrontierCells::anew(&mut self.found);
         let seed = params.seed(input.grid, &input.robot_in_map)?;
-        if lazy_fill.search(input.grid, params, seed, planes, entered, found).is_none() {
+        self.was_lazy = lazy_fill.search(input.grid, params, seed, planes, entered, found).is_some();
+        if !self.was_lazy {
+            let Self { params, planes, .. } = self;
             planes.pack(input.grid, &params.thresholds);
             match params.reachability {
                 Reachability::WallsBlock => self.mark_where_walls_block(seed),
@@ -78,6 +83,11 @@ impl FromScratch {
             self.clusters.collect(self.planes.unknown(), self.params.neighbours, min_cells, found);
         }
         Ok(&self.found)
+    }
+
+    /// Whether the robot reached so little of the last map that all of it was never looked at.
+    pub(super) const fn was_lazy(&self) -> bool {
+        self.was_lazy
     }
 
     /// What the detector's own state takes in memory, bytes; the frontiers last found

@@ -1,5 +1,5 @@
 //! The wavefront's frontiers at the speed of memory: all from scratch on a first or resized map,
-//! and repaired where the map changed on the next ones.
+//! or where the robot reaches little of it, and repaired where the map changed on the next ones.
 //!
 //! Both engines give what [`Wavefront`](super::Wavefront) gives, to the cell and in the same
 //! order, so that it is a question of time alone which of them is asked.
@@ -50,7 +50,8 @@ impl Bitplane {
 
     fn detect_shared(&mut self, input: &DetectionInput<'_>) -> Result<&Arc<FrontierCells>, DetectError> {
         let size = (input.grid.info().width(), input.grid.info().height());
-        if self.size.replace(size) != Some(size) {
+        // A fill that meets little of the map is faster than to repair all of it.
+        if self.size.replace(size) != Some(size) || self.from_scratch.was_lazy() {
             return self.from_scratch.detect_shared(input);
         }
         let changed = self.known.zip(input.changes).and_then(|(known, changes)| changes.since(known));

@@ -119,7 +119,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     }
     let end = explore(&mut sim, &mut explorer, &mut recorder);
     let record = recorder.record(&plan, &sim, &explorer, &end, began.elapsed().as_secs_f64());
-    folder.write(&record, &recorder.trail, sim.map(), Some(sim.pose_in_map()), &plan.preset.explorer)?;
+    folder.write(&record, &recorder.trail, sim.map(), Some(sim.pose_in_map()), &plan.preset.explorer, None)?;
     if let Some(bag) = &mut recorder.bag {
         bag.finish()?;
     }

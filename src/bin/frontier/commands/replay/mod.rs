@@ -158,7 +158,8 @@ fn save(
     folder.save(comparison, &serde_json::to_vec_pretty(&recorder.agreement)?)?;
     match robot.player().grid() {
         Some(grid) => {
-            let written = folder.write(record, &recorder.trail, grid, robot.pose(), settings)?;
+            let beside = comparison::beside(&recorder.agreement);
+            let written = folder.write(record, &recorder.trail, grid, robot.pose(), settings, Some(&beside))?;
             Ok(written.into_iter().chain([folder.path(comparison)]).collect())
         }
         None => {
