@@ -73,7 +73,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let record = record(&run);
     std::fs::write(directory.join("run.json"), record.to_json()?)?;
-    let report = HtmlReport { run: &record, map_png: &png, animation_gif: Some(&gif), theme: Theme::Clear, beside: None };
+    let report =
+        HtmlReport { run: &record, map_png: &png, animation_gif: Some(&gif), theme: Theme::Clear, beside: None };
     let html = report.to_html()?;
     std::fs::write(directory.join("report.html"), &html)?;
     let figures = format!(

@@ -230,3 +230,21 @@ fn print_config_shows_every_setting_and_can_be_read_back() {
     let again = frontier().args(["explore", "--print-config", "--config"]).arg(&file).output().unwrap();
     assert_eq!(String::from_utf8(again.stdout).unwrap(), text);
 }
+
+/// What a preset does not take for free is not counted as free: here no cell ever is, as the
+/// mapper is never surer than 12 %.
+#[test]
+fn free_area_is_counted_by_the_presets_thresholds() {
+    let folder = tempfile::tempdir().unwrap();
+    let (world, config) = (rooms(folder.path()), folder.path().join("strict.yaml"));
+    for (free_max, has_free) in [(5, false), (65, true)] {
+        let yaml =
+            format!("preset: strict\nexplorer:\n  thresholds:\n    free_max: {free_max}\n    occupied_min: 66\n");
+        std::fs::write(&config, yaml).unwrap();
+        let (out, config) = (folder.path().join(free_max.to_string()), config.to_str().unwrap());
+        explore(&world, &out, &["--config", config, "--map-style", "cartographer", "--time-limit", "2"]).code(3);
+        let run = run_json(&out);
+        assert!(run["known_area_m2"].as_f64().unwrap() > 1.0, "{}", run["known_area_m2"]);
+        assert_eq!(run["free_area_m2"].as_f64().unwrap() > 1.0, has_free, "{}", run["free_area_m2"]);
+    }
+}

@@ -168,3 +168,20 @@ fn a_reader_that_has_gone_is_no_failure() {
     let output = child.wait_with_output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 }
+
+/// Whoever saves a map from a script waits no longer than asked, with or without a master.
+#[test]
+fn saving_gives_up_when_no_master_answers_and_names_an_address_that_is_none() {
+    let save = |uri: &str| {
+        let mut command = Command::cargo_bin("frontier").unwrap();
+        command.env("ROS_MASTER_URI", uri).args(["map", "save", "-f", "nowhere", "--timeout", "1"]);
+        let output = command.timeout(std::time::Duration::from_secs(20)).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    // Nobody listens on a port that was free a moment ago.
+    let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
+    let (code, said) = save(&format!("http://127.0.0.1:{port}"));
+    assert!(code == Some(1) && said.contains("no ROS master answers at"), "{code:?} {said}");
+    let (code, said) = save("127.0.0.1:11311");
+    assert!(code == Some(1) && said.contains("must look like http://host:11311"), "{code:?} {said}");
+}

@@ -139,7 +139,8 @@ fn recorded_figures<D>(run: &RunRecord<D>, beside: Option<&Beside>) -> Vec<Figur
     ];
     if let Some(beside) = beside {
         figures.push(figure("recorded goals", beside.recorded_goals.to_string()));
-        figures.push(figure("at frontiers that we saw", format!("{} of {}", beside.at_frontiers, beside.recorded_goals)));
+        figures
+            .push(figure("at frontiers that we saw", format!("{} of {}", beside.at_frontiers, beside.recorded_goals)));
         figures.push(figure("agreement", format!("{} of {}", beside.agreeing, beside.decisions)));
     }
     figures
@@ -268,10 +269,16 @@ mod tests {
             decisions: 6,
             agreeing: 4,
             causes: vec![("the recording's goal was <taboo>".to_owned(), 2)],
-            partings: vec![BesideRow { time_s: 12.34, ours: Some([1.0, -2.0]), recorded: None, cause: "why".to_owned() }],
+            partings: vec![BesideRow {
+                time_s: 12.34,
+                ours: Some([1.0, -2.0]),
+                recorded: None,
+                cause: "why".to_owned(),
+            }],
         };
         let (map_png, theme) = (&b""[..], Theme::Clear);
-        let page = HtmlReport { run: &run, map_png, animation_gif: None, theme, beside: Some(&beside) }.to_html().unwrap();
+        let page =
+            HtmlReport { run: &run, map_png, animation_gif: None, theme, beside: Some(&beside) }.to_html().unwrap();
         for there in ["4 of 6", "5 of 7", "goal was &lt;taboo&gt;", "12.3 s", "(1.00, -2.00)", "Distance over time"] {
             assert!(page.contains(there), "{there}");
         }

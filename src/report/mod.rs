@@ -21,8 +21,8 @@ mod shapes;
 mod theme;
 mod view;
 
-pub use beside::{Beside, BesideRow};
 pub use animation::Animation;
+pub use beside::{Beside, BesideRow};
 pub use canvas::Canvas;
 pub use comparison::{
     COMPARISON_SCHEMA_VERSION, ComparedPreset, ComparedRun, ComparedWorld, Comparison, ComparisonError, ComparisonPlan,

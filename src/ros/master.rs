@@ -31,8 +31,9 @@ pub enum MasterError {
 /// # Errors
 /// [`MasterError`] with the address and what happened.
 pub fn probe(uri: &str) -> Result<(), MasterError> {
-    let address = uri.strip_prefix("http://").unwrap_or(uri).trim_end_matches('/');
-    let (host, port) = address.rsplit_once(':').ok_or_else(|| MasterError::Uri(uri.to_owned()))?;
+    let wrong = || MasterError::Uri(uri.to_owned());
+    let address = uri.strip_prefix("http://").ok_or_else(wrong)?.trim_end_matches('/');
+    let (host, port) = address.rsplit_once(':').ok_or_else(wrong)?;
     let port: u16 = port.parse().map_err(|_| MasterError::Uri(uri.to_owned()))?;
     let silent = |why: String| MasterError::Silent { uri: uri.to_owned(), why };
     let answer = ask(host.trim_matches(['[', ']']), port).map_err(|e| silent(e.to_string()))?;
@@ -86,7 +87,9 @@ mod tests {
     fn addresses_that_are_none_are_named() {
         let error = probe("localhost").unwrap_err().to_string();
         assert_eq!(error, "ROS_MASTER_URI is \"localhost\": must look like http://host:11311");
-        assert!(matches!(probe("http://localhost:port"), Err(MasterError::Uri(_))));
+        for wrong in ["http://localhost:port", "localhost:11311", "https://localhost:11311"] {
+            assert!(matches!(probe(wrong), Err(MasterError::Uri(_))), "{wrong}");
+        }
     }
 
     #[test]

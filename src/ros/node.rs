@@ -68,9 +68,17 @@ impl Node {
     /// # Errors
     /// [`NodeError`] when it was told to stop while waiting, or cannot start.
     pub fn start(name: &str) -> Result<Self, NodeError> {
+        Self::start_within(name, None)
+    }
+
+    /// The same for one who does not wait for a master for ever.
+    ///
+    /// # Errors
+    /// As [`Self::start`], and [`NodeError::Master`] when none has answered for so long.
+    pub fn start_within(name: &str, patience: Option<Duration>) -> Result<Self, NodeError> {
         bridge();
         let mut log = Log::new(name);
-        wait_for_master(&log)?;
+        wait_for_master(&log, patience)?;
         let wrong = |why: String| NodeError::Start { name: name.to_owned(), why };
         if let Some((param, _)) = resolve::params().iter().find(|(_, value)| value.is_empty()) {
             return Err(wrong(format!("the parameter {param} on the command line has no value")));
@@ -270,13 +278,15 @@ impl Node {
     }
 }
 
-fn wait_for_master(log: &Log) -> Result<(), NodeError> {
+fn wait_for_master(log: &Log, patience: Option<Duration>) -> Result<(), NodeError> {
     let uri = resolve::master();
-    let mut next_word = Instant::now();
+    let began = Instant::now();
+    let mut next_word = began;
     loop {
         match probe(&uri) {
             Ok(()) => return Ok(()),
             Err(error @ MasterError::Uri(_)) => return Err(error.into()),
+            Err(error) if patience.is_some_and(|patience| began.elapsed() >= patience) => return Err(error.into()),
             Err(error) if Instant::now() >= next_word => {
                 log.once(Level::Warn, format_args!("{error}; still waiting for it"));
                 next_word = Instant::now() + Duration::from_secs(30);

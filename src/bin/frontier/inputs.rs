@@ -17,3 +17,9 @@ pub fn robot(name_or_file: &str) -> anyhow::Result<RobotConfig> {
 pub fn robot_names() -> String {
     BUILTIN_ROBOTS.map(|(name, _)| name).join(", ")
 }
+
+/// Help for an argument that takes a preset.
+pub fn preset_help() -> String {
+    let names: Vec<&str> = Preset::names().collect();
+    format!("How to explore: a YAML file, or one of the built-in presets: {}", names.join(", "))
+}

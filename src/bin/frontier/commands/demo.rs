@@ -25,7 +25,7 @@ pub struct Args {
     #[arg(default_value = "office")]
     world: String,
     /// How to explore: a YAML file, or the name of a built-in preset.
-    #[arg(long, value_name = "PRESET", default_value = "wfd")]
+    #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]

@@ -25,7 +25,7 @@ pub struct Args {
     /// The bag.
     bag: PathBuf,
     /// How to explore: a YAML file, or the name of a built-in preset.
-    #[arg(long, value_name = "PRESET", default_value = "wfd")]
+    #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]
@@ -189,6 +189,12 @@ fn report(
         output::line(format_args!("warning: there was never a map with the robot's place in it: nothing was decided"))?;
     } else if recorder.trail.frames.as_ref().is_none_or(FrameLog::is_empty) {
         output::line(format_args!("warning: no moment had a map to show: there is no animation"))?;
+    }
+    for at_s in recorder.not_reached() {
+        output::line(format_args!(
+            "warning: no picture at {at_s} s: the replay ended {:.1} s after the bag's begin",
+            robot.now_s()
+        ))?;
     }
     comparison::print(&recorder.agreement)?;
     super::map::tell_scans(robot.player())?;

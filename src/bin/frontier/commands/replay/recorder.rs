@@ -125,6 +125,11 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// The times of pictures that the recording never came to, seconds after its begin.
+    pub fn not_reached(&self) -> impl Iterator<Item = f64> {
+        self.at.iter().rev().copied()
+    }
+
     /// Closes what is open, and tells what failed on the way.
     pub fn finish(&mut self) -> anyhow::Result<()> {
         if let Some(error) = self.failed.take() {
