@@ -7,7 +7,7 @@ use anyhow::anyhow;
 use frontier_explorer::io::save_map;
 use frontier_explorer::ros::{Node, receive_map, stop};
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Arguments of `frontier map save`. Remappings such as `map:=/robot/map` work too.
 #[derive(Debug, clap::Args)]
@@ -20,7 +20,7 @@ pub struct Args {
     /// The topic of the map.
     #[arg(long, default_value = "map")]
     topic: String,
-    /// Give up after so long without a ROS master or a map, seconds.
+    /// Give up after so long without a ROS master, or then without a map, seconds.
     #[arg(long, value_name = "S", default_value_t = 30)]
     timeout: u64,
     /// `name:=value`, as ROS takes them.
@@ -35,10 +35,9 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         return Err(anyhow!("{stranger}: must be a remapping such as map:=/robot/map; the file is given with -f"));
     }
     stop::listen().map_err(|why| anyhow!(why))?;
-    let (patience, began) = (Duration::from_secs(args.timeout), Instant::now());
+    let patience = Duration::from_secs(args.timeout);
     let node = Node::start_within("frontier_map_save", Some(patience))?;
-    let left = patience.saturating_sub(began.elapsed());
-    let map = receive_map(&node, &args.topic, left).map_err(|why| anyhow!(why))?;
+    let map = receive_map(&node, &args.topic, patience).map_err(|why| anyhow!(why))?;
     let saved = save_map(&args.file, &map.grid, &options)?;
     output::line(format_args!("{}", saved.yaml.display()))?;
     output::line(format_args!("{}", saved.image.display()))?;
