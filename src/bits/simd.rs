@@ -18,7 +18,7 @@ pub(super) fn is_available() -> bool {
     is_x86_feature_detected!("avx2")
 }
 
-/// The free and the unknown cells of each word of 64, as [`super::Thresholds::classify`]
+/// The free and the unknown cells of each word of 64, as [`crate::grid::Thresholds::classify`]
 /// has it. As many words as the shortest of the three slices has; `false`, and nothing
 /// done, on a processor without AVX2.
 pub(super) fn pack(cells: &[[i8; 64]], free: &mut [u64], unknown: &mut [u64], free_max: i8) -> bool {

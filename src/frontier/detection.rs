@@ -120,7 +120,7 @@ pub trait FrontierDetector: Send {
     /// The detector's name in configuration files.
     fn name(&self) -> &'static str;
 
-    /// All frontiers, those that the robot can get to alone where [`Reachability`] asks
+    /// All frontiers, those that the robot can get to alone where [`Reachability`](super::Reachability) asks
     /// for it, ordered by their first cell.
     ///
     /// # Errors

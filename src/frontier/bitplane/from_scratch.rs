@@ -3,7 +3,7 @@
 //! The same question as [`Wavefront`](crate::frontier::Wavefront) asks, answered without a search
 //! from cell to cell. The grid is packed into one bit a cell; the neighbours of 64 cells
 //! at once are a few shifts; what the robot can get to is filled row by row
-//! ([`crate::frontier::flood`]), and what hangs together is found by union-find over runs of cells,
+//! (`bits::connectivity::row_fill`), and what hangs together is found by union-find over runs of cells,
 //! after He, Chao and Suzuki (2008). The frontier as an expression of bits is the
 //! definition of Topiwala, Inani and Kathpal (2018) written for words. The result is the
 //! textbook's to the cell, in the same order.

@@ -3,7 +3,7 @@
 //! The result is that of [`FromScratch`](super::FromScratch) and of the textbook, to the cell and
 //! in the same order; the cost is that of what changed. The new map is packed and compared
 //! with the last one, 64 cells at a time, or only in the rectangle that is known to have
-//! changed; what is connected is repaired tile by tile ([`crate::frontier::reach`]), the frontier's
+//! changed; what is connected is repaired tile by tile (`bits::connectivity::tile_graph`), the frontier's
 //! cells where reach or territory changed, and the groups that had a cell there.
 //!
 //! O(cells compared + tiles + what changed + cells of all frontiers), the last with the

@@ -1,6 +1,6 @@
 //! Connected components of a plane of frontier cells, found two rows at a time, with their cells.
 //!
-//! Labelling by runs as in [`super::labels`], but for eight neighbours of two rows at a
+//! Labelling by runs as in `bits::labels`, but for eight neighbours of two rows at a
 //! time: columns beside each other that have a cell in either row are connected, whichever
 //! row it is in (He, Chao and Suzuki, "An Efficient First-Scan Method for Label-Equivalence-
 //! Based Labeling Algorithms", Pattern Recognition Letters 2010). Such bands have half as

@@ -4,7 +4,7 @@
 //! The textbook lets a corner suffice for both. In maps whose walls are dotted, with
 //! unknown cells between the dots, that makes frontiers along walls: a corner reaches
 //! through where a side does not. What is marked is found from bit planes
-//! ([`super::bitplane`]), what hangs together by a flood over the frontier cells.
+//! (`bitplane`), what hangs together by a flood over the frontier cells.
 //! O(cells) with a small constant, plus O(frontier cells).
 
 use crate::frontier::bitplane::Bitplane;
