@@ -6,7 +6,7 @@
 
 use super::sight::Sight;
 use crate::geometry::{Pose, shortest_angle};
-use crate::grid::{CellRect, OccupancyGrid};
+use crate::grid::{LiveCensus, Thresholds};
 use crate::robot::MapSnapshot;
 
 /// Motion below this is trembling of the pose, metres and radians.
@@ -26,6 +26,8 @@ pub struct MapWatch {
     /// Turning by less than this shows the lidar nothing new, radians.
     new_view_rad: f64,
     believed: Option<Believed>,
+    /// Counts what maps know, also those that are doubted.
+    census: LiveCensus,
     /// A map that is too different to be believed at once, with what it knows.
     doubted: Option<(u64, usize, f64)>,
     anchor: Option<Pose>,
@@ -54,6 +56,8 @@ impl MapWatch {
         Self {
             new_view_rad: new_view_rad.max(STILL_RAD),
             believed: None,
+            // What is known does not depend on the thresholds.
+            census: LiveCensus::new(Thresholds::default()),
             doubted: None,
             anchor: None,
             view: None,
@@ -122,7 +126,7 @@ impl MapWatch {
         if self.doubted.is_some_and(|(version, ..)| version == map.version()) {
             return None;
         }
-        let known_cells = self.count_known(map);
+        let known_cells = self.census.update(&map.grid, &map.changes).known();
         if let Some(believed) = &self.believed
             && let Some(why) = doubt(believed, map, known_cells)
         {
@@ -141,30 +145,12 @@ impl MapWatch {
         None
     }
 
-    /// How many cells of a map are known: from the last count, where it is told what changed.
-    fn count_known(&self, map: &MapSnapshot) -> usize {
-        let known = |grid: &OccupancyGrid, part: &CellRect| {
-            let (rows, columns) = (part.rows(grid.info()), part.columns(grid.info()));
-            let lines = grid.data().chunks_exact(grid.info().width()).skip(rows.start).take(rows.len());
-            lines.map(|row| row[columns.clone()].iter().filter(|&&value| value >= 0).count()).sum::<usize>()
-        };
-        match &self.believed {
-            Some(Believed { map: last, known_cells }) if last.grid.info() == map.grid.info() => {
-                match map.changes.since(last.version()) {
-                    Some(changed) => known_cells + known(&map.grid, &changed) - known(&last.grid, &changed),
-                    None => known(&map.grid, &CellRect::of(map.grid.info())),
-                }
-            }
-            _ => known(&map.grid, &CellRect::of(map.grid.info())),
-        }
-    }
-
     fn follow(&mut self, pose: &Pose, now_s: f64) {
         let view = *self.view.get_or_insert(*pose);
         if pose.distance_to(view.position()) >= STILL_M || shortest_angle(view.yaw, pose.yaw).abs() >= self.new_view_rad
         {
             self.view = Some(*pose);
-            self.moved_at_version = self.map().map_or(0, MapSnapshot::version);
+            self.moved_at_version = self.version();
         }
         let anchor = *self.anchor.get_or_insert(*pose);
         let (moved_m, turned_rad) = (pose.distance_to(anchor.position()), shortest_angle(anchor.yaw, pose.yaw).abs());
@@ -194,7 +180,7 @@ fn doubt(believed: &Believed, map: &MapSnapshot, known_cells: usize) -> Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::GridInfo;
+    use crate::grid::{GridInfo, OccupancyGrid};
     use std::sync::Arc;
 
     fn map(version: u64, known: usize, resolution_m: f64) -> MapSnapshot {

@@ -37,18 +37,6 @@ impl SeenFrontiers {
         Self { info: Some(info), frontiers }
     }
 
-    /// How many there are.
-    #[must_use]
-    pub const fn len(&self) -> usize {
-        self.frontiers.len()
-    }
-
-    /// Whether there is none.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.frontiers.is_empty()
-    }
-
     /// One more frontier of the same grid.
     pub(super) fn push(&mut self, frontier: Frontier) {
         self.frontiers.push(frontier);

@@ -8,6 +8,8 @@ pub const MAX_CELLS: u64 = 1 << 28;
 
 /// So far a cell may be off and be the same, as a share of it: origins are computed anew.
 const SAME_CELL: f64 = 1e-3;
+/// Grids farther apart than this share no lattice: no cell of either overflows when it is moved.
+const FARTHEST_CELLS: f64 = 1e6;
 /// So much resolutions (as a share) and rotations (radians) of one lattice may differ.
 const SAME_AXES: f64 = 1e-6;
 
@@ -260,7 +262,7 @@ impl GridInfo {
     /// when they lie otherwise. The cells need not lie within this grid.
     #[must_use]
     pub fn offset_of(&self, other: &Self) -> Option<(i32, i32)> {
-        let is_near = |value: f64| (value - value.round()).abs() < SAME_CELL && value.abs() < f64::from(i32::MAX);
+        let is_near = |value: f64| (value - value.round()).abs() < SAME_CELL && value.abs() < FARTHEST_CELLS;
         let (dx, dy) = self.to_grid_units(other.origin_in_map.position());
         let same_size = (other.resolution_m / self.resolution_m - 1.0).abs() < SAME_AXES;
         let same_axes = shortest_angle(other.origin_in_map.yaw, self.origin_in_map.yaw).abs() < SAME_AXES;

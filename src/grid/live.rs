@@ -99,13 +99,7 @@ impl<T: CellValues> Live<T> {
     /// The first state, as version 1.
     #[must_use]
     pub fn new(first: Arc<T>) -> Self {
-        Self::beginning_at(1, first)
-    }
-
-    /// The first state that is known, by its version.
-    #[must_use]
-    pub fn beginning_at(version: u64, first: Arc<T>) -> Self {
-        Self { newest: first, changes: Changes::beginning_at(version), spares: Vec::new() }
+        Self { newest: first, changes: Changes::beginning_at(1), spares: Vec::new() }
     }
 
     /// The newest state with its history.
@@ -144,6 +138,15 @@ impl<T: CellValues> Live<T> {
         }
     }
 
+    /// A whole state comes where there may have been none: the first one, or the next of `slot`,
+    /// compared with the last as by [`Self::replace`].
+    pub fn renew(slot: &mut Option<Self>, next: Arc<T>) {
+        match slot {
+            Some(live) => live.replace(next),
+            None => *slot = Some(Self::new(next)),
+        }
+    }
+
     /// A whole state comes of which nothing is known before.
     pub fn replace_unlike(&mut self, next: Arc<T>) {
         self.changes = self.changes.then_all();
@@ -153,7 +156,7 @@ impl<T: CellValues> Live<T> {
 
     /// Writes the cells of a rectangle anew. O(cells of it and of those that changed in the last
     /// versions), and a copy of all where every earlier state is still read by somebody.
-    pub fn change<R>(&mut self, changed: CellRect, write: impl FnOnce(&mut T) -> R) {
+    pub fn change(&mut self, changed: CellRect, write: impl FnOnce(&mut T)) {
         if let Some(newest) = Arc::get_mut(&mut self.newest) {
             write(newest);
             self.changes = self.changes.then(changed);

@@ -106,25 +106,23 @@ impl Opened {
         let since = self.version.and_then(|version| costs.changes.since(version));
         self.version = Some(costs.changes.version());
         let last = std::mem::replace(&mut self.opened, opened);
-        self.changes = match since {
-            Some(changed) => {
-                let other = |a: &HashMap<Cell, u8>, b: &HashMap<Cell, u8>| {
-                    let differ = a.iter().filter(|(cell, cost)| b.get(cell) != Some(cost));
-                    differ.filter_map(|(&cell, _)| CellRect::of_cell(cell)).fold(CellRect::default(), CellRect::union)
-                };
-                let changed = changed.union(other(&last, &self.opened)).union(other(&self.opened, &last));
-                if changed.is_empty() { self.changes.clone() } else { self.changes.then(changed) }
-            }
-            None => self.changes.then_all(),
-        };
+        let changed = since.map(|changed| {
+            let other = |a: &HashMap<Cell, u8>, b: &HashMap<Cell, u8>| {
+                let differ = a.iter().filter(|(cell, cost)| b.get(cell) != Some(cost));
+                differ.filter_map(|(&cell, _)| CellRect::of_cell(cell)).fold(CellRect::default(), CellRect::union)
+            };
+            changed.union(other(&last, &self.opened)).union(other(&self.opened, &last))
+        });
+        if changed.is_none_or(|changed| !changed.is_empty()) {
+            self.changes = self.changes.then_known(changed);
+        }
         if self.opened.is_empty() {
             self.made = None;
             return Snapshot { cells: Arc::clone(&costs.cells), changes: self.changes.clone() };
         }
-        let changed = self.changes.since(self.changes.version() - 1);
         match (&mut self.made, changed) {
             (Some(made), Some(changed)) if made.newest().info() == info => {
-                if made.version() != self.changes.version() {
+                if !changed.is_empty() {
                     let opened = &self.opened;
                     made.change(changed, |cells| {
                         cells.copy_rect(&costs.cells, &changed);
@@ -134,7 +132,7 @@ impl Opened {
             }
             (made, _) => {
                 let cells = Arc::new(costs.cells.with_costs(&self.opened));
-                *made = Some(Live::beginning_at(self.changes.version(), cells));
+                *made = Some(Live::new(cells));
             }
         }
         let cells = self.made.as_ref().map_or(&costs.cells, Live::newest);
@@ -267,6 +265,29 @@ mod tests {
         assert!(reached(&open, robot) > 60);
         let free = Pose::new(0.7, 0.8, 0.0);
         assert!(Arc::ptr_eq(&Driven::default().open(&closed, &free), &closed), "nothing is opened for a free robot");
+    }
+
+    /// Costs change, the robot moves, what was opened closes again: as if opened anew each time.
+    #[test]
+    fn what_is_kept_open_is_as_if_opened_anew() {
+        let shut = LEGS.replace("######..########", "################");
+        let drawn = [LEGS, LEGS, &shut, LEGS, &LEGS.replace('#', "."), LEGS].map(costmap);
+        let mut costs = Live::new(Arc::clone(&drawn[0]));
+        let (mut driven, mut opened, mut readers) = (Driven::default(), Opened::default(), Vec::new());
+        for (step, next) in drawn.iter().enumerate() {
+            costs.replace(Arc::clone(next));
+            let robot = Pose::new(0.72, 1.0 - 0.15 * step as f64, 0.0);
+            driven.note(&robot);
+            let known = opened.update(&driven, &costs.snapshot(), &robot);
+            assert_eq!(known.cells, driven.open(costs.newest(), &robot), "step {step}");
+            readers.push(known);
+            for pair in readers.windows(2) {
+                let told = pair[1].changes.since(pair[0].changes.version()).unwrap();
+                let differs = crate::grid::changed_rect(&*pair[0].cells, &*pair[1].cells).unwrap_or_default();
+                assert_eq!(told.union(differs), told);
+            }
+        }
+        assert!(!opened.opened.is_empty(), "the legs were opened");
     }
 
     #[test]

@@ -174,13 +174,9 @@ impl<R: Read + Seek> Player<R> {
 
     /// A whole map comes.
     fn take_map(&mut self, stamp_s: f64, grid: OccupancyGrid) {
-        match &mut self.map {
-            Some((map_s, map)) => {
-                *map_s = stamp_s;
-                map.replace(Arc::new(grid));
-            }
-            None => self.map = Some((stamp_s, Live::new(Arc::new(grid)))),
-        }
+        let mut live = self.map.take().map(|(_, live)| live);
+        Live::renew(&mut live, Arc::new(grid));
+        self.map = live.map(|live| (stamp_s, live));
     }
 
     /// Keeps a scan, and takes it into the map that is made here.

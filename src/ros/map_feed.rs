@@ -161,14 +161,9 @@ fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell
         match convert::grid(message) {
             Ok(grid) => {
                 let mut kept = lock(&state.kept);
-                let live = match kept.map.take() {
-                    Some(KeptMap { mut live, .. }) => {
-                        live.replace(Arc::new(grid));
-                        live
-                    }
-                    None => Live::new(Arc::new(grid)),
-                };
-                kept.map = Some(KeptMap { live, frame, stamp_s, arrived });
+                let mut live = kept.map.take().map(|map| map.live);
+                Live::renew(&mut live, Arc::new(grid));
+                kept.map = live.map(|live| KeptMap { live, frame, stamp_s, arrived });
                 state.show(&kept);
                 drop(kept);
                 bell.ring();

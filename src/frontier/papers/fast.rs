@@ -42,9 +42,6 @@ use crate::grid::{Cell, CellState, GridInfo, NEIGHBOURS_8, OccupancyGrid};
 use contour::contour;
 use serde::{Deserialize, Serialize};
 
-/// How far from a whole number of cells the origin may have moved, cells.
-const SHIFT_TOLERANCE_CELLS: f64 = 1e-3;
-
 /// Parameters of the fast detector.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -177,13 +174,8 @@ impl Shift {
     /// `None` when the cells of the two grids are not the same squares of the world.
     fn between(from: &GridInfo, to: &GridInfo) -> Option<Self> {
         let aligned = from.resolution_m() == to.resolution_m() && from.origin_in_map().yaw == to.origin_in_map().yaw;
-        let (x, y) = to.to_grid_units(from.origin_in_map().position());
-        let whole = |units: f64| (units - units.round()).abs() < SHIFT_TOLERANCE_CELLS && units.abs() < 1e6;
-        (aligned && whole(x) && whole(y)).then_some(Self {
-            from: *from,
-            to: *to,
-            offset: (x.round() as i32, y.round() as i32),
-        })
+        let offset = to.offset_of(from).filter(|_| aligned)?;
+        Some(Self { from: *from, to: *to, offset })
     }
 
     /// The rectangle of `to` that both grids have.

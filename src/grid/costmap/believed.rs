@@ -66,7 +66,6 @@ impl BelievedCosts {
                 }
             }
         };
-        let all = CellRect::of(&info);
         match (&mut self.made, changed) {
             (Some(made), Some(changed)) if *made.newest().info() == info => {
                 if !changed.is_empty() {
@@ -76,12 +75,15 @@ impl BelievedCosts {
             }
             (made, _) => {
                 let mut costmap = Costmap::of(info, vec![UNKNOWN_COST; info.len()]);
-                write(&mut costmap, &all);
-                match made {
-                    Some(made) => made.replace_unlike(Arc::new(costmap)),
-                    None => *made = Some(Live::new(Arc::new(costmap))),
-                }
-                made.as_ref().map_or_else(|| Snapshot::alone(Costmap::of(info, Vec::new())), Live::snapshot)
+                write(&mut costmap, &CellRect::of(&info));
+                let live = match made.take() {
+                    Some(mut live) => {
+                        live.replace_unlike(Arc::new(costmap));
+                        live
+                    }
+                    None => Live::new(Arc::new(costmap)),
+                };
+                made.insert(live).snapshot()
             }
         }
     }

@@ -88,23 +88,19 @@ impl Costmap {
         Self { info, costs }
     }
 
-    /// Brings the costs up to date with a grid of the same size in which only a rectangle changed:
-    /// the same as [`Self::inflate`] gives with the same settings. The rectangle of costs that was
-    /// written; `None`, and nothing done, where costs reach so far that all must be found again.
+    /// Finds the costs of a rectangle again, of a grid of the same size in which obstacles at
+    /// least `reach` cells inside of it changed: the same as [`Self::inflate`] gives there.
     pub(super) fn reinflate(
         &mut self,
         grid: &OccupancyGrid,
-        changed: CellRect,
+        anew: CellRect,
+        reach: usize,
         thresholds: &Thresholds,
         inflation: &Inflation,
-    ) -> Option<CellRect> {
-        let info = self.info;
-        let reach = inflation.reach_within(&info)?;
-        let anew = changed.grown(reach, &info);
-        let table = inflation.table(info.resolution_m());
+    ) {
+        let table = inflation.table(self.info.resolution_m());
         // What has a say in the costs lies a reach farther out.
-        inflate_rect(grid, thresholds, &table, [anew, anew.grown(reach, &info)], &mut self.costs);
-        Some(anew)
+        inflate_rect(grid, thresholds, &table, [anew, anew.grown(reach, &self.info)], &mut self.costs);
     }
 }
 

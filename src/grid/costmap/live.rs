@@ -35,7 +35,7 @@ impl LiveCostmap {
             Some((changed, _)) if changed.is_empty() => {}
             Some((changed, reach)) => {
                 let written = changed.grown(reach, grid.info());
-                live.change(written, |costmap| costmap.reinflate(grid, changed, thresholds, inflation));
+                live.change(written, |costmap| costmap.reinflate(grid, written, reach, thresholds, inflation));
             }
             None => live.replace(Arc::new(Costmap::inflate(grid, thresholds, inflation))),
         }
