@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout)]
 
 use frontier_explorer::bag::{
-    BagReader, BagWriter, Chunk, Compression, Header, MessageType, Summary, map, map_message, nanos, scan,
+    BagReader, BagWriter, Chunk, Compression, Header, MessageType, Summary, map, map_message, nanos, open_bag, scan,
     scan_message, tf_message, transforms,
 };
 use frontier_explorer::geometry::Pose;
@@ -60,12 +60,16 @@ fn plain(path: &Path) {
     }
 }
 
+fn opened(path: &Path) -> Box<dyn BagReader> {
+    open_bag(path, File::open(path).unwrap()).unwrap()
+}
+
 fn look_through(path: &Path) {
-    black_box(Summary::of(File::open(path).unwrap()).unwrap());
+    black_box(Summary::of(opened(path).as_mut()).unwrap());
 }
 
 fn decode(path: &Path) {
-    let mut reader = BagReader::new(File::open(path).unwrap()).unwrap();
+    let mut reader = opened(path);
     let mut chunk = Chunk::default();
     while reader.next_chunk(&mut chunk).unwrap() {
         for message in &chunk.messages {

@@ -39,27 +39,41 @@ impl Connections {
         Self { known: known.clone(), definition_bytes: 0 }
     }
 
-    /// Takes in a connection record; the first of a number counts.
+    /// Whether messages of a connection can be understood; tells of one that is unknown.
+    pub fn has(&self, number: u32, problems: &mut Problems) -> bool {
+        let is_known = self.known.contains_key(&number);
+        if !is_known {
+            problems.tell(format!("messages of connection {number}, which nothing describes, are left out"));
+        }
+        is_known
+    }
+
+    /// Takes in a connection record.
     pub fn take(&mut self, fields: &Fields<'_>, data: &[u8], problems: &mut Problems) {
         let Ok(number) = fields.u32("conn") else { return };
+        let described = Fields::new(data);
+        let connection = || Connection {
+            topic: fields.text("topic"),
+            kind: described.text("type"),
+            md5: described.text("md5sum"),
+            definition: described.text("message_definition"),
+            caller: described.text("callerid"),
+            is_latching: described.get("latching") == Some(b"1"),
+        };
+        self.insert(number, connection, problems);
+    }
+
+    /// Adds a connection; the first of a number counts.
+    pub fn insert(&mut self, number: u32, connection: impl FnOnce() -> Connection, problems: &mut Problems) {
         if self.known.contains_key(&number) {
             return;
         }
-        let described = Fields::new(data);
-        let definition = described.text("message_definition");
-        self.definition_bytes += definition.len();
+        let connection = connection();
+        self.definition_bytes += connection.definition.len();
         if self.known.len() >= MAX_CONNECTIONS || self.definition_bytes > MAX_DEFINITION_BYTES {
             problems.tell(format!("only the first {} connections are read", self.known.len()));
             return;
         }
-        let connection = Connection {
-            topic: fields.text("topic"),
-            kind: described.text("type"),
-            md5: described.text("md5sum"),
-            definition,
-            caller: described.text("callerid"),
-            is_latching: described.get("latching") == Some(b"1"),
-        };
         self.known.insert(number, Arc::new(connection));
     }
 }

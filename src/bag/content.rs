@@ -29,6 +29,8 @@ pub struct Chunk {
     pub packed_bytes: u64,
     /// Its messages in the order of the file.
     pub messages: Vec<ChunkMessage>,
+    /// Its length without compression, where `bytes` holds the messages' data alone.
+    pub(super) claimed_bytes: Option<u64>,
     pub(super) bytes: Vec<u8>,
 }
 
@@ -41,20 +43,15 @@ impl Chunk {
 
     /// Its length without compression, bytes.
     #[must_use]
-    pub const fn len(&self) -> usize {
-        self.bytes.len()
-    }
-
-    /// Whether it holds nothing.
-    #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.bytes.is_empty()
+    pub fn unpacked_bytes(&self) -> u64 {
+        self.claimed_bytes.unwrap_or(self.bytes.len() as u64)
     }
 
     pub(super) fn clear(&mut self, offset: u64) {
         self.messages.clear();
         self.bytes.clear();
-        (self.offset, self.packed_bytes, self.compression) = (offset, 0, Compression::default());
+        (self.offset, self.compression) = (offset, Compression::default());
+        (self.packed_bytes, self.claimed_bytes) = (0, None);
     }
 
     /// Finds the messages in its bytes; false when they end within one.
@@ -86,6 +83,22 @@ impl Chunk {
     ) {
         self.messages.extend(message(fields, start..self.bytes.len(), connections, problems));
     }
+
+    /// Adds a message whose data stands elsewhere.
+    pub(super) fn add(
+        &mut self,
+        connection: u32,
+        time: Nanos,
+        data: &[u8],
+        connections: &Connections,
+        problems: &mut Problems,
+    ) {
+        if connections.has(connection, problems) {
+            let start = self.bytes.len();
+            self.bytes.extend_from_slice(data);
+            self.messages.push(ChunkMessage { connection, time, range: start..self.bytes.len() });
+        }
+    }
 }
 
 fn message(
@@ -98,11 +111,7 @@ fn message(
         problems.tell("a message without connection or time is left out".to_owned());
         return None;
     };
-    if !connections.known.contains_key(&connection) {
-        problems.tell(format!("messages of connection {connection}, which nothing describes, are left out"));
-        return None;
-    }
-    Some(ChunkMessage { connection, time, range })
+    connections.has(connection, problems).then_some(ChunkMessage { connection, time, range })
 }
 
 fn record_of<'a>(cursor: &mut Cursor<'a>) -> Result<(&'a [u8], &'a [u8]), Malformed> {

@@ -1,8 +1,10 @@
 //! ROS 1 bags (format 2.0): reading, writing, and the messages in them that exploration
 //! needs (the rim).
 //!
-//! Nothing here opens a file or needs ROS: bytes come from any [`std::io::Read`] with
-//! [`std::io::Seek`]. Whatever the bytes say, nothing panics, hangs or takes more memory
+//! Two readers stand behind one trait, [`BagReader`]: the `rosbag` crate for bags that are
+//! whole, a scanner for what is cut, damaged or still being written. Nothing here needs ROS,
+//! and only [`open_bag`] looks at a file; a scanner's bytes come from any [`std::io::Read`]
+//! with [`std::io::Seek`]. Whatever the bytes say, nothing panics, hangs or takes more memory
 //! than a chunk and an index: lengths are believed only as far as bytes are there.
 
 mod action;
@@ -12,13 +14,17 @@ mod content;
 mod cursor;
 mod definitions;
 mod encode;
+mod indexed;
 mod input;
+mod layout;
 mod links;
 mod message;
+mod open;
 mod playback;
 mod problems;
 mod reader;
 mod record;
+mod scanner;
 mod skew;
 mod span;
 mod summary;
@@ -40,8 +46,10 @@ pub use message::{
     Header, MapMessage, Odometry, PatchMessage, ScanMessage, StampedPose, clock, header, map, odometry, patch, path,
     pose, scan, transforms,
 };
+pub use open::open_bag;
 pub use playback::{Playback, PlayedMessage};
 pub use reader::{BagError, BagReader};
+pub use scanner::BagScanner;
 pub use skew::Skew;
 pub use summary::{ChunkPlace, Summary};
 pub use topics::TopicSummary;

@@ -8,7 +8,6 @@ use super::content::Chunk;
 use super::reader::BagReader;
 use super::summary::{ChunkPlace, Summary};
 use super::{BagError, Nanos};
-use std::io::{Read, Seek};
 use std::sync::Arc;
 
 /// Chunks that overlap are kept open up to this many bytes; beyond it, messages come in
@@ -34,8 +33,8 @@ struct Open {
 }
 
 /// Plays a bag.
-pub struct Playback<R> {
-    reader: BagReader<R>,
+pub struct Playback {
+    reader: Box<dyn BagReader>,
     /// From when to when times are believed.
     start: Nanos,
     end: Nanos,
@@ -45,24 +44,21 @@ pub struct Playback<R> {
     spare: Vec<Chunk>,
 }
 
-impl<R: Read + Seek> Playback<R> {
+impl Playback {
     /// From the first message of a bag that was looked through before.
-    ///
-    /// # Errors
-    /// [`BagError`] when it is not a bag any more.
-    pub fn new(input: R, summary: &Summary) -> Result<Self, BagError> {
+    #[must_use]
+    pub fn new(mut reader: Box<dyn BagReader>, summary: &Summary) -> Self {
         let mut places = summary.chunks.clone();
         places.sort_by_key(|place| std::cmp::Reverse((place.start, place.offset)));
-        let mut reader = BagReader::new(input)?;
         reader.know(&summary.connections);
-        Ok(Self {
+        Self {
             reader,
             start: summary.start,
             end: summary.end.max(summary.start),
             places,
             open: Vec::new(),
             spare: Vec::new(),
-        })
+        }
     }
 
     /// The time of the next message; `None` at the end.
@@ -77,7 +73,7 @@ impl<R: Read + Seek> Playback<R> {
     fn recorded(&mut self) -> Result<Option<Nanos>, BagError> {
         loop {
             let earliest = self.open.iter().filter_map(Open::time).min();
-            let bytes: usize = self.open.iter().map(|open| open.chunk.len()).sum();
+            let bytes: usize = self.open.iter().map(|open| open.chunk.bytes.len()).sum();
             match (self.places.last(), earliest) {
                 (Some(place), Some(time)) if place.start > time || bytes > MAX_OPEN_BYTES => return Ok(Some(time)),
                 (None, earliest) => return Ok(earliest),

@@ -10,7 +10,6 @@ use super::span::Span;
 use super::topics::{TopicSummary, Topics};
 use super::{BagError, Nanos, seconds};
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::{Read, Seek};
 use std::sync::Arc;
 
 /// A stray this near to the rest is not worth a word, seconds.
@@ -60,9 +59,8 @@ impl Summary {
     /// Looks through a bag.
     ///
     /// # Errors
-    /// [`BagError`] when it is none, or cannot be read.
-    pub fn of<R: Read + Seek>(input: R) -> Result<Self, BagError> {
-        let mut reader = BagReader::new(input)?;
+    /// [`BagError`] when the file cannot be read.
+    pub fn of(reader: &mut dyn BagReader) -> Result<Self, BagError> {
         let mut this = Self { bytes: reader.length(), ..Self::default() };
         let mut chunk = Chunk::default();
         let (mut topics, mut links, mut span) = (Topics::default(), Links::default(), Span::default());
@@ -128,7 +126,7 @@ impl Summary {
         let (chunks, packed, raw) = self.compression.entry(chunk.compression).or_default();
         *chunks += 1;
         *packed += chunk.packed_bytes;
-        *raw += chunk.len() as u64;
+        *raw += chunk.unpacked_bytes();
         let start = chunk.messages.iter().map(|message| message.time).min().unwrap_or_default();
         self.chunks.push(ChunkPlace { offset: chunk.offset, start });
         for message in &chunk.messages {

@@ -2,9 +2,8 @@
 
 use super::player::Player;
 use super::robot::BagRobot;
-use std::io::{Read, Seek};
 
-impl<R: Read + Seek> Player<R> {
+impl Player {
     /// Why there is no map so far.
     #[must_use]
     pub fn why_no_map(&self) -> String {
@@ -23,7 +22,7 @@ impl<R: Read + Seek> Player<R> {
     }
 }
 
-impl<R: Read + Seek> BagRobot<R> {
+impl BagRobot {
     /// What was missing for a first decision, a sentence each: a map, or the robot's place.
     #[must_use]
     pub fn missing(&self) -> Vec<String> {

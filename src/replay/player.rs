@@ -7,15 +7,15 @@ use super::frames::Frames;
 use super::goals::RecordedGoals;
 use super::scans::{ScanMapping, on_robot};
 use super::told::Told;
-use crate::bag::{BagError, Nanos, Playback, PlayedMessage, ScanMessage, StampedPose, Summary, nanos, seconds};
+use crate::bag::{
+    BagError, BagReader, Nanos, Playback, PlayedMessage, ScanMessage, StampedPose, Summary, nanos, seconds,
+};
 use crate::geometry::Pose;
 use crate::grid::{Live, OccupancyGrid};
 use crate::mapping::{BuilderConfig, MapperError};
 use crate::robot::{MapSnapshot, PoseError};
 use crate::scan::LaserScan;
-
 use crate::tf::{frame_name, planar, upright};
-use std::io::{Read, Seek};
 use std::sync::Arc;
 
 /// From one map that is made of scans to the next, seconds at the least.
@@ -36,8 +36,8 @@ pub enum PlayError {
 }
 
 /// Plays a bag and keeps what it says. All times are seconds since the bag's begin.
-pub struct Player<R> {
-    playback: Playback<R>,
+pub struct Player {
+    playback: Playback,
     /// The bag's begin, seconds since 1970.
     begin_s: f64,
     inputs: Inputs,
@@ -52,14 +52,12 @@ pub struct Player<R> {
     tap: Option<Tap>,
 }
 
-impl<R: Read + Seek> Player<R> {
+impl Player {
     /// Before the first message.
-    ///
-    /// # Errors
-    /// [`BagError`] when the bag cannot be read.
-    pub fn new(input: R, summary: &Summary, inputs: Inputs) -> Result<Self, BagError> {
-        Ok(Self {
-            playback: Playback::new(input, summary)?,
+    #[must_use]
+    pub fn new(reader: Box<dyn BagReader>, summary: &Summary, inputs: Inputs) -> Self {
+        Self {
+            playback: Playback::new(reader, summary),
             begin_s: seconds(summary.start),
             goals: RecordedGoals::new(inputs.results_topic.is_some()),
             mapping: None,
@@ -69,7 +67,7 @@ impl<R: Read + Seek> Player<R> {
             scan: None,
             faults: Faults::default(),
             tap: None,
-        })
+        }
     }
 
     /// Hands every message that is played to somebody else too.

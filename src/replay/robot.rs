@@ -12,7 +12,6 @@ use super::player::{PlayError, Player};
 use crate::bag::Summary;
 use crate::geometry::{Pose, shortest_angle};
 use crate::robot::{Command, Navigation, NavigationState, Observation, PoseError, Robot, RobotError};
-use std::io::{Read, Seek};
 
 /// From one look to the next, seconds, as `explore_node` has it.
 const TICK_S: f64 = 0.2;
@@ -52,8 +51,8 @@ enum Aim {
 }
 
 /// A bag behind the port. All times are seconds since the bag's begin.
-pub struct BagRobot<R> {
-    player: Player<R>,
+pub struct BagRobot {
+    player: Player,
     end_s: f64,
     now_s: f64,
     task: Option<Task>,
@@ -67,10 +66,10 @@ pub struct BagRobot<R> {
     no_pose: Option<PoseError>,
 }
 
-impl<R: Read + Seek> BagRobot<R> {
+impl BagRobot {
     /// A recording from its begin to `until_s` seconds after it, or to its end.
     #[must_use]
-    pub fn new(player: Player<R>, summary: &Summary, until_s: Option<f64>) -> Self {
+    pub fn new(player: Player, summary: &Summary, until_s: Option<f64>) -> Self {
         let end_s = until_s.map_or(summary.duration_s(), |until_s| until_s.min(summary.duration_s()));
         Self {
             player,
@@ -88,7 +87,7 @@ impl<R: Read + Seek> BagRobot<R> {
 
     /// What plays the bag.
     #[must_use]
-    pub const fn player(&self) -> &Player<R> {
+    pub const fn player(&self) -> &Player {
         &self.player
     }
 
@@ -234,7 +233,7 @@ impl<R: Read + Seek> BagRobot<R> {
     }
 }
 
-impl<R: Read + Seek> Robot for BagRobot<R> {
+impl Robot for BagRobot {
     /// The first observation is that of the first map with the robot's place in it, as the
     /// node has it.
     fn observe(&mut self) -> Result<Observation, RobotError> {

@@ -60,7 +60,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let mut config = BuilderConfig { is_matching: !args.odometry_only, ..BuilderConfig::default() };
     config.mapper.resolution_m = args.resolution;
     config.max_range_m = args.max_range.unwrap_or(f64::INFINITY);
-    let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone())?;
+    let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone());
     player.map_scans(config, &summary);
     let mut way: Vec<Point> = Vec::new();
     let (mut now_s, mut last) = (0.0, None);

@@ -11,7 +11,6 @@ use crate::exit::Outcome;
 use crate::output;
 use clap::Subcommand;
 use frontier_explorer::replay::Player;
-use std::io::{Read, Seek};
 
 /// What to do with maps.
 #[derive(Debug, Subcommand)]
@@ -40,7 +39,7 @@ pub fn run(command: &Command) -> anyhow::Result<Outcome> {
 }
 
 /// What became of the scans of a bag.
-pub fn tell_scans<R: Read + Seek>(player: &Player<R>) -> anyhow::Result<()> {
+pub fn tell_scans(player: &Player) -> anyhow::Result<()> {
     let Some(mapping) = player.mapping() else { return Ok(()) };
     let (taken, unmatched) = mapping.taken();
     let without = mapping.without_pose();

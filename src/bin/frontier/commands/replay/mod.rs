@@ -95,7 +95,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         bail!("{}: frontier replay: no, {missing}", args.bag.display());
     }
     let folder = RunFolder::create(&args.out, "replay.gif")?;
-    let mut player = Player::new(bag::open(&args.bag)?, &summary, found.clone())?;
+    let mut player = Player::new(bag::open(&args.bag)?, &summary, found.clone());
     if found.map_topic.is_none() {
         let mut config = BuilderConfig::default();
         config.mapper.resolution_m = args.resolution;
@@ -128,7 +128,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
 }
 
 /// What was missing for a decision.
-fn missing(robot: &FileRobot) -> Vec<String> {
+fn missing(robot: &BagRobot) -> Vec<String> {
     if robot.has_begun() {
         return vec![format!("the recording ended {:.1} s after its begin, before there was a need", robot.now_s())];
     }
@@ -144,14 +144,12 @@ fn tell(args: &Args, summary: &Summary, found: &Inputs) -> anyhow::Result<()> {
     found.verdict(summary).sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
 }
 
-type FileRobot = BagRobot<std::fs::File>;
-
 /// Writes the results; without a map there is only what was decided.
 fn save(
     folder: &RunFolder,
     record: &RunRecord,
     recorder: &Recorder<'_>,
-    robot: &FileRobot,
+    robot: &BagRobot,
     settings: &frontier_explorer::explore::ExplorerSettings,
 ) -> anyhow::Result<Vec<PathBuf>> {
     let comparison = "comparison.json";
@@ -173,7 +171,7 @@ fn report(
     args: &Args,
     record: &RunRecord,
     recorder: &Recorder<'_>,
-    robot: &FileRobot,
+    robot: &BagRobot,
     files: &[PathBuf],
 ) -> anyhow::Result<()> {
     output::line(format_args!(

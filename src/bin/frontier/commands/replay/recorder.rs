@@ -1,7 +1,7 @@
 //! Watches a replay: decisions, pictures, and the recording's own goals.
 
+use super::Args;
 use super::out_bag::OutBag;
-use super::{Args, FileRobot};
 use crate::stop;
 use crate::trail::Trail;
 use anyhow::Context;
@@ -11,7 +11,7 @@ use frontier_explorer::frontier::{DetectionInput, Frontier, FrontierDetector};
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::{Costmap, Inflation, OccupancyGrid};
 use frontier_explorer::io::write_atomic;
-use frontier_explorer::replay::Agreement;
+use frontier_explorer::replay::{Agreement, BagRobot};
 use frontier_explorer::report::{Overlay, OverlayFrontier, RunRecord, SCHEMA_VERSION, Series, Theme};
 use frontier_explorer::robot::Observation;
 use std::path::PathBuf;
@@ -79,7 +79,7 @@ impl<'a> Recorder<'a> {
     pub fn record(
         &mut self,
         (world, preset, robot_name): (String, String, String),
-        robot: &FileRobot,
+        robot: &BagRobot,
         explorer: &Explorer,
         end: &End,
         total_s: f64,
@@ -146,7 +146,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Makes the pictures whose times have come.
-    fn picture(&mut self, robot: &FileRobot, observation: &Observation) -> anyhow::Result<()> {
+    fn picture(&mut self, robot: &BagRobot, observation: &Observation) -> anyhow::Result<()> {
         while let Some(&at_s) = self.at.last() {
             let (Some(map), Some(pose)) = (&observation.map, robot.pose()) else { return Ok(()) };
             if robot.now_s() < at_s {
@@ -174,7 +174,7 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    fn remember(&mut self, robot: &FileRobot, observation: &Observation) {
+    fn remember(&mut self, robot: &BagRobot, observation: &Observation) {
         if let Ok(pose) = &observation.pose_in_map {
             self.start.get_or_insert(*pose);
         }
@@ -193,13 +193,13 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Watcher<FileRobot> for Recorder<'_> {
-    fn before_step(&mut self, robot: &FileRobot, explorer: &mut Explorer, observation: &Observation) {
+impl Watcher<BagRobot> for Recorder<'_> {
+    fn before_step(&mut self, robot: &BagRobot, explorer: &mut Explorer, observation: &Observation) {
         self.agreement.before_step(robot.recorded_goals(), explorer, observation);
         self.trail.before_step();
     }
 
-    fn after_step(&mut self, robot: &FileRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+    fn after_step(&mut self, robot: &BagRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
         self.trail.after_step(explorer, observation, decision);
         self.agreement.after_step(robot.recorded_goals(), decision, observation.stamp_s);
         if let (Some(_), Some(out_bag), Some(map)) = (&decision.record, &self.out_bag, &observation.map) {
