@@ -26,6 +26,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct FromScratch {
     params: DetectorParams,
+    /// By what frontier cells are of one frontier.
+    grouping: Neighbourhood,
     planes: BitPlanes,
     /// The cells that the search walks on.
     entered: BitPlane,
@@ -43,11 +45,17 @@ impl FromScratch {
     /// A detector with these parameters.
     #[must_use]
     pub fn new(params: DetectorParams) -> Self {
+        Self::with_grouping(params, params.neighbours)
+    }
+
+    /// One that marks frontier cells by the parameters' neighbours and groups them by others.
+    pub(super) fn with_grouping(params: DetectorParams, grouping: Neighbourhood) -> Self {
         Self {
             params,
+            grouping,
             planes: BitPlanes::default(),
             entered: BitPlane::default(),
-            lazy_fill: LazyFill::default(),
+            lazy_fill: LazyFill::new(grouping),
             was_lazy: false,
             connected: Connectivity::by(params.search_neighbours()),
             clusters: Clusters::default(),
@@ -80,7 +88,7 @@ impl FromScratch {
             }
             let min_cells = self.params.min_cells(input.grid.info());
             let found = FrontierCells::anew(&mut self.found);
-            self.clusters.collect(self.planes.unknown(), self.params.neighbours, min_cells, found);
+            self.clusters.collect(self.planes.unknown(), self.grouping, min_cells, found);
         }
         Ok(&self.found)
     }

@@ -32,8 +32,10 @@ struct RowRun {
 }
 
 /// The fill, with the buffers it keeps.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct LazyFill {
+    /// By what frontier cells are of one frontier.
+    grouping: Neighbourhood,
     /// Runs taken, those before `next` with their neighbours.
     taken: Vec<RowRun>,
     /// Which words of the planes are packed, a bit each.
@@ -56,6 +58,18 @@ struct Fill<'a> {
 }
 
 impl LazyFill {
+    /// A fill whose frontier cells hang together by these neighbours.
+    pub fn new(grouping: Neighbourhood) -> Self {
+        Self {
+            grouping,
+            taken: Vec::new(),
+            packed: Vec::new(),
+            opened: Vec::new(),
+            cells: Vec::new(),
+            grouper: Grouper::default(),
+        }
+    }
+
     /// Finds the frontiers of what is connected to the seed. `None`, with nothing useful
     /// in the planes, if that is too much.
     pub fn search(
@@ -81,7 +95,7 @@ impl LazyFill {
         fill.take_connected(seed)?;
         fill.gather();
         self.cells.sort_unstable_by_key(|cell| (cell.y, cell.x));
-        self.grouper.group(&self.cells, params.neighbours, params.min_cells(grid.info()), found);
+        self.grouper.group(&self.cells, self.grouping, params.min_cells(grid.info()), found);
         Some(())
     }
 

@@ -13,6 +13,7 @@ pub use repair::Repair;
 
 use super::FrontierCells;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector};
+use crate::grid::Neighbourhood;
 use std::sync::Arc;
 
 /// The detector: both engines, with what they keep from map to map.
@@ -30,7 +31,17 @@ impl Bitplane {
     /// A detector with these parameters that has seen no map.
     #[must_use]
     pub fn new(params: DetectorParams) -> Self {
-        Self { from_scratch: FromScratch::new(params), repair: Repair::new(params), size: None, known: None }
+        Self::with_grouping(params, params.neighbours)
+    }
+
+    /// One that marks frontier cells by the parameters' neighbours and groups them by others.
+    pub(super) fn with_grouping(params: DetectorParams, grouping: Neighbourhood) -> Self {
+        Self {
+            from_scratch: FromScratch::with_grouping(params, grouping),
+            repair: Repair::with_grouping(params, grouping),
+            size: None,
+            known: None,
+        }
     }
 
     /// The frontiers as lists of cells, without a copy of each.

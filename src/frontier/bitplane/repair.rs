@@ -25,6 +25,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Repair {
     params: DetectorParams,
+    /// By what frontier cells are of one frontier.
+    grouping: Neighbourhood,
     planes: BitPlanes,
     /// By the textbook: the cells that the search could walk on.
     open: BitPlane,
@@ -50,8 +52,14 @@ impl Repair {
     /// A detector with these parameters that has seen no map.
     #[must_use]
     pub fn new(params: DetectorParams) -> Self {
+        Self::with_grouping(params, params.neighbours)
+    }
+
+    /// One that marks frontier cells by the parameters' neighbours and groups them by others.
+    pub(super) fn with_grouping(params: DetectorParams, grouping: Neighbourhood) -> Self {
         Self {
             params,
+            grouping,
             planes: BitPlanes::default(),
             open: BitPlane::default(),
             reach: TileGraph::new(params.search_neighbours()),
@@ -100,7 +108,7 @@ impl Repair {
         self.reach.update(plane, &self.seeds);
         self.find_frontier_cells();
         let min_cells = self.params.min_cells(info);
-        let (frontier, neighbours) = (&mut self.frontier, self.params.neighbours);
+        let (frontier, neighbours) = (&mut self.frontier, self.grouping);
         let repaired = self.min_cells == Some(min_cells)
             && self.groups.update(frontier, &self.regroup, neighbours, min_cells, Arc::make_mut(&mut self.found));
         if !repaired {
