@@ -2,7 +2,7 @@
 
 use super::assess::Assessed;
 use super::blacklist::Taboo;
-use super::record::{CandidateRecord, CandidateStatus, DecisionRecord, EndReason, LeftBehind};
+use super::record::{CandidateRecord, CandidateStatus, DecisionRecord, EndReason, LeftBehind, SeenFrontiers};
 use crate::geometry::{Point, Pose};
 
 /// Where to go, when there is somewhere.
@@ -61,10 +61,17 @@ impl Decided {
         here.find_map(|(seen, c)| Some((seen, c.goal?.position())))
     }
 
-    /// Whether there is a frontier near a point to which no way leads.
-    pub fn is_barred_near(&self, target: Point, radius_m: f64) -> bool {
-        let is_barred = |status| matches!(status, CandidateStatus::NoPath | CandidateStatus::Unreachable);
-        self.near(target, radius_m).any(|(_, c)| is_barred(c.status))
+    /// Whether a frontier with its target or a cell near a point is one to which no way leads:
+    /// where the way closes, another cell may stand for it at once.
+    pub fn is_barred_near(&self, point: Point, radius_m: f64, seen: &SeenFrontiers) -> bool {
+        let is_near = |other: Point| nalgebra::distance(&point, &other) <= radius_m;
+        let is_barred =
+            |c: &&CandidateRecord| matches!(c.status, CandidateStatus::NoPath | CandidateStatus::Unreachable);
+        self.record
+            .candidates
+            .iter()
+            .filter(is_barred)
+            .any(|c| is_near(Point::new(c.target.x, c.target.y)) || seen.cells_of(c.id).any(is_near))
     }
 
     /// The candidates near a point, with their targets.

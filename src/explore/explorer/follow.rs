@@ -149,7 +149,7 @@ impl Explorer {
                 if let Some((target, place)) = here.or(is_visit.then_some((drive.target, place))) {
                     // There but for the last steps, or where it is seen from as well.
                     self.arrivals.push(Arrival { target, place, decided_at: None, is_beside: drive.is_beside });
-                } else if decided.is_barred_near(drive.target, goal.commit_radius_m) {
+                } else if decided.is_barred_near(drive.target, goal.commit_radius_m, self.lookout.frontiers()) {
                     // The way there has closed as the robot came. From elsewhere it may seem open
                     // again: without a count the robot would drive to and fro for ever.
                     self.blacklist.record_failure(drive.target, place, pose.position());
