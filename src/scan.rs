@@ -81,6 +81,14 @@ pub enum NoSight {
 }
 
 impl LaserScan {
+    /// The sweep of a lidar that hangs upside down, as one in its place that stands upright
+    /// would have taken it: the other way round.
+    #[must_use]
+    pub fn turned_upright(self) -> Self {
+        let (angle_min_rad, angle_increment_rad) = (-self.angle_min_rad, -self.angle_increment_rad);
+        Self { angle_min_rad, angle_increment_rad, ..self }
+    }
+
     /// Whether the scan shows something, be it free space: a lidar that is covered, dusty
     /// or broken sends scans too.
     ///

@@ -232,7 +232,7 @@ fn bad_input_is_answered_in_one_sentence() {
         (&[world, "--starts=auto:0"], 2, "must be auto:N with N > 0"),
         (&[world, "--starts=missing.csv"], 1, "cannot read missing.csv"),
         (&[world, "--robot=roomba"], 1, "turtlebot2"),
-        (&[world, "--jobs=0"], 2, ""),
+        (&[world, "--jobs=0"], 2, "invalid value '0' for '--jobs <N>'"),
         (&["--merge", "none.json"], 1, "none.json: not the results of a comparison"),
         (&["--merge", "future.json"], 1, "future.json: the results have schema version 9: must be 1"),
         (&["--merge", "none.json", "--seeds=1"], 2, "cannot be used with"),

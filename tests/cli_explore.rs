@@ -166,7 +166,7 @@ fn bad_input_is_answered_in_one_sentence() {
         (&["explore", "nowhere.yaml"], 1, "nowhere.yaml"),
         (&["explore", world, "--start", "0.5"], 2, "must be X,Y or X,Y,YAW"),
         (&["explore", world, "--start", "99,99"], 1, "outside"),
-        (&["explore", world, "--start", "-0.95,-0.95"], 1, "m"),
+        (&["explore", world, "--start", "-0.95,-0.95"], 1, "to the nearest solid cell: the robot needs more than"),
         (&["explore", world, "--config", "wdf"], 1, "there is no preset \"wdf\": must be one of"),
         (&["explore", world, "--config", preset], 1, "explorer.detector.min_size_m is -1: must be finite and >= 0"),
         (&["explore", world, "--robot", "roomba"], 1, "turtlebot2"),
@@ -174,7 +174,7 @@ fn bad_input_is_answered_in_one_sentence() {
         (&["explore", world, "--time-limit", "nan"], 2, "must be a number of seconds > 0"),
         (&["detect", world, "--at", "99,99"], 1, "outside the map"),
         (&["detect", world, "--at", "0,0", "--neighbours", "6"], 2, "must be 4 or 8"),
-        (&["detect", world, "--at", "0,0", "--min-size", "-1"], 2, ""),
+        (&["detect", world, "--at", "0,0", "--min-size", "-1"], 2, "unexpected argument '-1'"),
         (&["detect", world, "--at", "0,0", "--min-size=-1"], 1, "must be finite and >= 0"),
     ];
     for (args, code, expected) in cases {

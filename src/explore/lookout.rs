@@ -2,17 +2,18 @@
 //! where there is none, look once more with other eyes.
 
 mod beside;
+mod second_look;
 
 use super::assess::{Assessed, Assessor, rank};
 use super::audit::Audit;
 use super::behind::unknown_behind_m2;
-use super::blacklist::{Blacklist, SAME_PLACE_M};
-use super::decided::{Audited, Choice, Decided, count, explain};
+use super::blacklist::Blacklist;
+use super::decided::{Choice, Decided, count, explain};
 use super::record::{CandidateStatus, DecisionRecord, SeenFrontiers};
 use super::settings::ExplorerSettings;
 use super::sight::Sights;
 use super::stages::stage;
-use super::standing::{GoalHeading, StandingGoal, StandingSearch};
+use super::standing::StandingSearch;
 use super::traits::RobotTraits;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
 use crate::geometry::{Path, Point, Pose};
@@ -154,23 +155,7 @@ impl Lookout {
         }
         let mut audit = None;
         if has_nothing(&weighed) {
-            let raw = self.audit.frontiers(map, robot)?;
-            let mut second = self.weigh(&raw, situation, map, field.as_ref());
-            let mut audited = self.audit_of(&second, situation, map, field.as_ref());
-            if !situation.settings.finish.explore_what_the_audit_sees {
-                let open = |a: &&Assessed| {
-                    matches!(
-                        a.record.status,
-                        CandidateStatus::Chosen | CandidateStatus::Eligible | CandidateStatus::AlreadyThere
-                    )
-                };
-                audited.forbidden = second.assessed.iter().filter(open).count();
-                audited.forbidden_m = second.assessed.iter().filter(open).map(|a| a.record.size_m).sum();
-                second.choice = None;
-            }
-            if second.choice.is_some() {
-                self.frontiers = Arc::new(SeenFrontiers::new(*grid.info(), raw.clone()));
-            }
+            let (raw, second, audited) = self.look_again(situation, map, field.as_ref())?;
             frontiers = raw;
             (weighed, audit) = (second, Some(audited));
         }
@@ -239,41 +224,6 @@ impl Lookout {
         }
     }
 
-    /// What bars the way to the frontiers that are left.
-    fn audit_of(
-        &mut self,
-        weighed: &Weighed,
-        situation: &Situation<'_>,
-        map: &MapSnapshot,
-        field: Option<&PathField>,
-    ) -> Audited {
-        let robot = &situation.robot;
-        let unreachable = |a: &&Assessed| a.record.status == CandidateStatus::Unreachable;
-        let in_pocket = field.is_none_or(|field| field.area_m2() < POCKET_M2);
-        let mut barred = 0;
-        if weighed.assessed.iter().any(|a| unreachable(&a)) {
-            let widest = self.audit.widest_reach(&map.grid, situation.driven, robot);
-            let radius_m = situation.settings.goal.search_radius_m;
-            let standing = &mut self.standing;
-            let mut could_see = |a: &&Assessed| {
-                // What the robot has looked at from as near as it gets is left only where its body
-                // would get through: a nook of which a step nearer shows a little more is not.
-                let nearer_m = |spent_m: f64| (spent_m - SAME_PLACE_M).min(THROUGH_M);
-                let radius_m = a.spent_m.map_or(radius_m, nearer_m);
-                if radius_m <= 0.0 {
-                    return false;
-                }
-                let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
-                // The search counts whole cells.
-                let near_m = radius_m + 0.71 * map.grid.info().resolution_m();
-                let place = widest.as_ref().and_then(|field| standing.goal(field, robot, a.target, &search));
-                place.is_some_and(|place| place.distance_to(a.target) <= near_m)
-            };
-            barred = weighed.assessed.iter().filter(unreachable).filter(|a| could_see(a)).count();
-        }
-        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket }
-    }
-
     /// Asks the planner in order of rank; what has no path says so in its record. When
     /// none has, and the planner gave up on some before it knew, part of the way to the
     /// first of these is taken.
@@ -310,11 +260,6 @@ impl Costs {
         map.costmap.clone().unwrap_or_else(|| self.own.update(&map.grid, &map.changes))
     }
 }
-
-/// A body that can be as near to a frontier as this gets through it, metres.
-const THROUGH_M: f64 = 0.15;
-/// A place smaller than this is a pocket and not the robot's world, square metres.
-const POCKET_M2: f64 = 1.0;
 
 impl Assessed {
     /// Makes it the choice of its decision.

@@ -8,6 +8,7 @@ mod census;
 mod changes;
 mod costmap;
 mod distance;
+mod flood;
 mod info;
 mod live;
 mod near;

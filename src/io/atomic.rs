@@ -4,37 +4,20 @@
 //! the new, never a part: the bytes go to a temporary file in the same directory,
 //! reach the disk, and take the name in one step.
 
-use super::destination::{Destination, folder_of, temporary_beside};
-use std::fs;
+use super::atomic_file::AtomicFile;
+use super::destination::{Destination, temporary_beside};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Replaces the contents of `path`, or creates it. A symbolic link is followed, and a
-/// device or a pipe is written to, as it must stay what it is. The directory must exist;
-/// new files get the permissions that the umask leaves.
+/// Replaces the contents of `path`, or creates it, as [`AtomicFile`] does.
 ///
 /// # Errors
 /// The first error of the file system; the old contents of a file then still stand and
 /// the temporary file is gone.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let target = match Destination::of(path)? {
-        Destination::Replace(target) => target,
-        Destination::Through(target) => {
-            let mut file = Destination::open(&target)?;
-            file.write_all(bytes)?;
-            return file.flush();
-        }
-    };
-    let mut file = temporary_beside(&target)?;
+    let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(&target).map_err(|error| error.error)?;
-    // The new name must reach the disk too; a file system that cannot open or sync a
-    // directory has done all it can.
-    if let Ok(directory) = fs::File::open(folder_of(&target)) {
-        let _ = directory.sync_all();
-    }
-    Ok(())
+    file.commit()
 }
 
 /// Whether `path` could be written now: its folder takes a file, or what stands there is
@@ -53,6 +36,7 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn contents_are_replaced_and_nothing_is_left_over() {

@@ -1,6 +1,6 @@
 //! A file that is written little by little and appears whole.
 
-use super::destination::{Destination, temporary_beside};
+use super::destination::{Destination, folder_of, temporary_beside};
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -21,7 +21,8 @@ pub struct AtomicFile {
 
 impl AtomicFile {
     /// Begins a file that shall be at `path`, whose directory must exist. A symbolic
-    /// link is followed; a device or a pipe is written to at once.
+    /// link is followed; a device or a pipe is written to at once, as it must stay what it
+    /// is. New files get the permissions that the umask leaves.
     ///
     /// # Errors
     /// The first error of the file system.
@@ -41,7 +42,12 @@ impl AtomicFile {
         match self.inner {
             Inner::Beside(file, target) => {
                 file.as_file().sync_all()?;
-                file.persist(target).map_err(|error| error.error)?;
+                file.persist(&target).map_err(|error| error.error)?;
+                // The new name must reach the disk too; a file system that cannot open or
+                // sync a directory has done all it can.
+                if let Ok(directory) = File::open(folder_of(&target)) {
+                    let _ = directory.sync_all();
+                }
                 Ok(())
             }
             Inner::Through(mut file) => file.flush(),

@@ -3,8 +3,6 @@
 //! Hart, Nilsson and Raphael, "A Formal Basis for the Heuristic Determination of
 //! Minimum Cost Paths" (1968); cell costs weigh as in navfn ([`super::lattice`]).
 
-use super::endpoints::{goal_index, path_along, start_index};
-use super::lattice::Lattice;
 use super::search::Search;
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::Pose;
@@ -22,14 +20,7 @@ impl GlobalPlanner for Astar {
     }
 
     fn plan(&mut self, costmap: &Costmap, start_in_map: &Pose, goal_in_map: &Pose) -> Result<Path, PlanError> {
-        let start = start_index(costmap, start_in_map)?;
-        let goal = goal_index(costmap, goal_in_map)?;
-        let lattice = Lattice::new(costmap);
-        if !self.search.run(&lattice, start, Some(goal), true) {
-            return Err(PlanError::no_path(goal_in_map.position()));
-        }
-        let cost = f64::from(self.search.cost(goal).unwrap_or_default());
-        Ok(path_along(costmap.info(), &self.search.way(&lattice, goal), start_in_map, goal_in_map, cost))
+        self.search.plan(costmap, start_in_map, goal_in_map, true)
     }
 }
 

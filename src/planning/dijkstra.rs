@@ -5,8 +5,6 @@
 //! it looks at every cell that costs no more than the goal, in all directions, and so
 //! at more than [`super::Astar`] for the same path cost.
 
-use super::endpoints::{goal_index, path_along, start_index};
-use super::lattice::Lattice;
 use super::search::Search;
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::Pose;
@@ -24,13 +22,6 @@ impl GlobalPlanner for Dijkstra {
     }
 
     fn plan(&mut self, costmap: &Costmap, start_in_map: &Pose, goal_in_map: &Pose) -> Result<Path, PlanError> {
-        let start = start_index(costmap, start_in_map)?;
-        let goal = goal_index(costmap, goal_in_map)?;
-        let lattice = Lattice::new(costmap);
-        if !self.search.run(&lattice, start, Some(goal), false) {
-            return Err(PlanError::no_path(goal_in_map.position()));
-        }
-        let cost = f64::from(self.search.cost(goal).unwrap_or_default());
-        Ok(path_along(costmap.info(), &self.search.way(&lattice, goal), start_in_map, goal_in_map, cost))
+        self.search.plan(costmap, start_in_map, goal_in_map, false)
     }
 }

@@ -146,16 +146,7 @@ fn way_out(costmap: &Costmap, own: Cell, cost: impl Fn(Cell) -> u8) -> Vec<Cell>
     let info = costmap.info();
     let enough = (POCKET_M2 / info.cell_area_m2()).ceil().clamp(4.0, 1e5) as usize;
     let passable = |cell: Cell| info.contains(cell) && cost(cell) < INSCRIBED_COST;
-    let place_of = |seed: Cell| -> HashSet<Cell> {
-        let (mut place, mut queue) = (HashSet::from([seed]), VecDeque::from([seed]));
-        while let Some(cell) = queue.pop_front() {
-            if place.len() >= enough {
-                break;
-            }
-            queue.extend(info.neighbours(cell, Neighbourhood::Four).filter(|&c| passable(c) && place.insert(c)));
-        }
-        place
-    };
+    let place_of = |seed: Cell| info.flood(seed, Neighbourhood::Four, passable).take(enough).collect::<HashSet<Cell>>();
     if !info.contains(own) {
         return Vec::new();
     }

@@ -3,7 +3,6 @@
 use super::{Path, PlanError};
 use crate::geometry::{Point, Pose};
 use crate::grid::{Cell, Costmap, GridInfo, LETHAL_COST, Neighbourhood};
-use std::collections::VecDeque;
 
 /// How far a robot that stands too near to an obstacle looks for a way out, metres.
 /// The map may close in on it by a cell or two as it becomes known.
@@ -45,25 +44,13 @@ pub fn goal_index(costmap: &Costmap, goal: &Pose) -> Result<usize, PlanError> {
 /// The passable cell nearest to `from` by a flood that no obstacle lets through.
 fn nearest_passable(costmap: &Costmap, from: Cell, radius_m: f64) -> Option<Cell> {
     let reach = costmap.info().cells(radius_m).floor() as i64;
-    flood(costmap.info(), from, |cell| costmap.cost(cell) != LETHAL_COST || cell == from)
+    let is_open = |cell| costmap.cost(cell) != LETHAL_COST;
+    costmap
+        .info()
+        .flood(from, Neighbourhood::Eight, is_open)
         .take_while(|cell| cell.distance_squared(from) <= 2 * reach * reach)
         .filter(|cell| cell.distance_squared(from) <= reach * reach)
         .find(|&cell| costmap.is_passable(cell))
-}
-
-/// Cells in the order of a breadth-first flood over the cells that are `open`.
-fn flood<'a>(info: &'a GridInfo, from: Cell, open: impl Fn(Cell) -> bool + 'a) -> impl Iterator<Item = Cell> + 'a {
-    let mut queue = VecDeque::from([from]);
-    let mut seen = std::collections::HashSet::from([from]);
-    std::iter::from_fn(move || {
-        let cell = queue.pop_front()?;
-        for next in info.neighbours(cell, Neighbourhood::Eight) {
-            if open(next) && seen.insert(next) {
-                queue.push_back(next);
-            }
-        }
-        Some(cell)
-    })
 }
 
 /// A path along cells: it starts at the robot's own position, passes the cells'

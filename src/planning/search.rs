@@ -5,8 +5,12 @@
 //! at most two steps: a bucket queue orders them. O(cells), no allocation once warm.
 
 use super::bucket_queue::BucketQueue;
+use super::endpoints::{goal_index, path_along, start_index};
 use super::ground::ONWARD_ROUGH;
 use super::lattice::{ALL_DIRECTIONS, Lattice, MAX_STEP};
+use super::{Path, PlanError};
+use crate::geometry::Pose;
+use crate::grid::Costmap;
 
 /// Cost of a cell that was not reached.
 pub const UNREACHED: u32 = u32::MAX;
@@ -32,6 +36,28 @@ impl Default for Search {
 }
 
 impl Search {
+    /// The cheapest way over a costmap's costs, found with a heuristic (A*) or without one
+    /// (Dijkstra).
+    ///
+    /// # Errors
+    /// [`PlanError`] that says why there is none.
+    pub fn plan(
+        &mut self,
+        costmap: &Costmap,
+        start_in_map: &Pose,
+        goal_in_map: &Pose,
+        heuristic: bool,
+    ) -> Result<Path, PlanError> {
+        let start = start_index(costmap, start_in_map)?;
+        let goal = goal_index(costmap, goal_in_map)?;
+        let lattice = Lattice::new(costmap);
+        if !self.run(&lattice, start, Some(goal), heuristic) {
+            return Err(PlanError::no_path(goal_in_map.position()));
+        }
+        let cost = f64::from(self.cost(goal).unwrap_or_default());
+        Ok(path_along(costmap.info(), &self.way(&lattice, goal), start_in_map, goal_in_map, cost))
+    }
+
     /// Searches from `start` until `goal` is settled, or everywhere without one.
     /// Returns whether the goal was reached (true without one).
     pub fn run(&mut self, lattice: &Lattice<'_>, start: usize, goal: Option<usize>, heuristic: bool) -> bool {

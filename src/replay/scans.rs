@@ -192,9 +192,6 @@ pub(super) fn on_robot(
     message: &ScanMessage,
 ) -> Result<(Pose, LaserScan), TransformError> {
     let mount = transforms.latest(base_frame, &message.header.frame)?.transform;
-    let mut scan = message.scan.clone();
-    if is_upside_down(&mount) {
-        (scan.angle_min_rad, scan.angle_increment_rad) = (-scan.angle_min_rad, -scan.angle_increment_rad);
-    }
-    Ok((planar(&mount), scan))
+    let scan = message.scan.clone();
+    Ok((planar(&mount), if is_upside_down(&mount) { scan.turned_upright() } else { scan }))
 }

@@ -7,7 +7,9 @@
 mod animation;
 mod beside;
 mod canvas;
+mod chart;
 mod comparison;
+mod figures;
 mod frame_log;
 mod html;
 mod overlay;

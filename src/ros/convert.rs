@@ -138,18 +138,14 @@ pub fn patch_message(patch: GridPatch, frame: &str, stamp_s: f64) -> map_msgs::O
     map_msgs::OccupancyGridUpdate { header: header(frame, stamp_s), x, y, width, height, data }
 }
 
-/// A scan, in the frame of a lidar that stands upright. One that hangs upside down
-/// sweeps the other way round.
+/// A scan, in the lidar's frame.
 #[must_use]
-pub fn scan(message: &sensor_msgs::LaserScan, is_upside_down: bool) -> LaserScan {
-    let first = f64::from(message.angle_min);
-    let increment = f64::from(message.angle_increment);
-    let (angle_min_rad, angle_increment_rad) = if is_upside_down { (-first, -increment) } else { (first, increment) };
+pub fn scan(message: &sensor_msgs::LaserScan) -> LaserScan {
     let (range_min_m, range_max_m) = believable_limits(message.range_min, message.range_max);
     LaserScan {
         stamp_s: seconds(&message.header.stamp),
-        angle_min_rad,
-        angle_increment_rad,
+        angle_min_rad: f64::from(message.angle_min),
+        angle_increment_rad: f64::from(message.angle_increment),
         range_min_m,
         range_max_m,
         ranges_m: message.ranges.clone(),
@@ -227,7 +223,7 @@ mod tests {
             ranges: vec![1.0, 2.0, 3.0],
             ..sensor_msgs::LaserScan::default()
         };
-        let (upright, hanging) = (scan(&message, false), scan(&message, true));
+        let (upright, hanging) = (scan(&message), scan(&message).turned_upright());
         assert_eq!((upright.angle_rad(0), upright.angle_rad(2)), (-0.5, 0.5));
         assert_eq!((hanging.angle_rad(0), hanging.angle_rad(2)), (0.5, -0.5));
     }

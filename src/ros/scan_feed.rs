@@ -54,7 +54,7 @@ impl ScanFeed {
         let state = Arc::<Mutex<State>>::default();
         let (theirs, owner) = (Arc::clone(&state), node.clone());
         let feed = node.listen(topic, 2, SILENCE, move |message: ScanMessage, _| {
-            let sight = convert::scan(&message, false).sight();
+            let sight = convert::scan(&message).sight();
             let mut state = lock(&theirs);
             state.blind = sight.err().map(|why| why.to_string());
             if state.blind.is_none() {
@@ -118,7 +118,8 @@ impl ScanFeed {
             let header = &message.header;
             let placed = transforms.sensor(frame, &header.frame_id, convert::seconds(&header.stamp));
             let (pose, is_upside_down) = placed.ok()?;
-            Some((pose, convert::scan(message, is_upside_down), *arrived_s))
+            let scan = convert::scan(message);
+            Some((pose, if is_upside_down { scan.turned_upright() } else { scan }, *arrived_s))
         })
     }
 

@@ -14,6 +14,7 @@ mod motion_filter;
 mod move_base;
 mod odometry;
 mod plant;
+mod published;
 mod ray;
 mod robot;
 mod schedule;

@@ -7,6 +7,7 @@
 //! the robot believes. The body moves by the true one. Coverage counts what the scans in the
 //! newest map have truly seen, wherever an erring SLAM has drawn it.
 
+use super::published::Published;
 use super::schedule::{Micros, Periodic, micros, seconds};
 use super::slam::{Slam, Sweep};
 use super::{
@@ -14,7 +15,7 @@ use super::{
 };
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
-use crate::grid::{Changes, Costmap, LiveCostmap, OccupancyGrid, Snapshot};
+use crate::grid::{Costmap, LiveCostmap, OccupancyGrid, Snapshot};
 use crate::robot::MapSnapshot;
 use crate::scan::LaserScan;
 use serde::Serialize;
@@ -53,17 +54,6 @@ pub struct SimStats {
     pub target_area_m2: f64,
 }
 
-/// A published map with the costmap made of it.
-#[derive(Debug)]
-struct Published {
-    stamp_s: f64,
-    /// Its version counts the maps that were published, also those of which nothing changed.
-    map: Snapshot<OccupancyGrid>,
-    /// The version of the map that the mapper knows it by.
-    mapped: u64,
-    costmap: Snapshot<Costmap>,
-}
-
 /// What has sensed at a moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sensed {
@@ -75,7 +65,6 @@ pub struct Sensed {
 
 /// The body, its lidar and its mapper.
 pub struct Plant {
-    costs: LiveCostmap,
     world: Arc<World>,
     body: DiffDrive,
     lidar: Lidar,
@@ -104,18 +93,14 @@ impl Plant {
         let mut lidar_config = robot.lidar;
         lidar_config.noise_std_m = config.lidar_noise_std_m.unwrap_or(lidar_config.noise_std_m);
         let mut lidar = Lidar::new(lidar_config, config.seed);
-        let mut costs = LiveCostmap::new(config.thresholds, robot.inflation());
+        let costs = LiveCostmap::new(config.thresholds, robot.inflation());
         let newest = take_sweep(&mut lidar, &world, &body, 0.0);
         let anchor = world.info().origin_in_map().position();
         let (slam, grid) = Slam::begin(&config, &start, anchor, lidar_config.mount, &newest)?;
-        let mapped = grid.changes.version();
-        let map = Snapshot { changes: Changes::beginning_at(1), ..grid };
-        let costmap = costs.update(&map.cells, &map.changes);
-        let published = Published { stamp_s: 0.0, map, mapped, costmap };
+        let published = Published::begin(grid, costs);
         let mut coverage = Coverage::new(&target);
         coverage.update(&published.map.cells);
         let mut this = Self {
-            costs,
             world,
             body,
             lidar,
@@ -198,9 +183,7 @@ impl Plant {
     /// The same with what changed since earlier ones, and the costmap made of it.
     #[must_use]
     pub fn map_snapshot(&self) -> MapSnapshot {
-        let Published { stamp_s, map, costmap, .. } = &self.published;
-        let (grid, changes) = (Arc::clone(&map.cells), map.changes.clone());
-        MapSnapshot { stamp_s: *stamp_s, grid, changes, costmap: Some(costmap.clone()) }
+        self.published.snapshot()
     }
 
     /// The same without its costmap.
@@ -294,13 +277,7 @@ impl Plant {
         }
         if let Some(map) = self.slam.publish(&self.newest, self.now)? {
             sensed.map = true;
-            let Published { map: last, mapped, .. } = &self.published;
-            let changed = map.grid.changes.since(*mapped);
-            let changes = last.changes.then_known(changed);
-            let mapped = map.grid.changes.version();
-            let grid = Snapshot { changes, ..map.grid };
-            let costmap = self.costs.update(&grid.cells, &grid.changes);
-            self.published = Published { stamp_s: map.stamp_s, map: grid, mapped, costmap };
+            let changed = self.published.renew(map.stamp_s, map.grid);
             // On known ground nothing changes for long, and counting takes its time.
             if changed.is_none_or(|changed| !changed.is_empty()) {
                 self.coverage.update(&map.seen.cells);

@@ -2,8 +2,8 @@
 
 use super::{ComparedRun, Comparison};
 use crate::report::ReportError;
-use crate::report::plots::{HEIGHT, TEXT, TEXT_HEX, WIDTH, tick};
-use plotters::prelude::*;
+use crate::report::chart::{Chart, Curve};
+use plotters::style::{BLACK, Color, RGBColor};
 
 /// Points of a median curve.
 const MEDIAN_POINTS: usize = 240;
@@ -43,50 +43,22 @@ pub fn css_color(preset: usize) -> String {
 pub fn coverage_curves_svg(comparison: &Comparison, world: &str) -> Result<String, ReportError> {
     let in_world = comparison.runs.iter().filter(|run| run.world == world);
     let latest = in_world.map(|run| run.sim_time_s).fold(1.0, f64::max);
-    let mut svg = String::new();
-    draw(&mut svg, comparison, world, latest).map_err(|error| ReportError::Plot(error.to_string()))?;
-    Ok(svg.replace(TEXT_HEX, "currentColor"))
-}
-
-fn draw(svg: &mut String, comparison: &Comparison, world: &str, latest: f64) -> Result<(), Box<dyn std::error::Error>> {
-    let root = SVGBackend::with_string(svg, (WIDTH * 2, HEIGHT * 3 / 2)).into_drawing_area();
-    let mut chart = ChartBuilder::on(&root)
-        .margin(8)
-        .margin_right(18)
-        .x_label_area_size(44)
-        .y_label_area_size(60)
-        .build_cartesian_2d(0.0..latest, 0.0..100.0)?;
-    let style = ("sans-serif", 15).into_font().color(&TEXT);
-    chart
-        .configure_mesh()
-        .x_labels(10)
-        .y_labels(6)
-        .x_desc("time, s")
-        .y_desc("coverage, %")
-        .label_style(style.clone())
-        .axis_desc_style(style)
-        .axis_style(TEXT.mix(0.5))
-        .bold_line_style(TEXT.mix(0.15))
-        .light_line_style(TRANSPARENT)
-        .x_label_formatter(&|value| tick(*value, latest))
-        .y_label_formatter(&|value| tick(*value, 100.0))
-        .draw()?;
+    let (mut thin, mut bold) = (Vec::new(), Vec::new());
     for (i, preset) in comparison.plan.presets.iter().enumerate() {
         let runs: Vec<&ComparedRun> = comparison.runs_of(&preset.name, Some(world)).collect();
         if runs.len() > 1 {
-            for run in &runs {
-                let points = run.coverage_over_time.iter().map(|&[t, share]| (t, share * 100.0));
-                chart.draw_series(LineSeries::new(points, color(i).mix(0.45).stroke_width(1)))?;
-            }
+            thin.extend(runs.iter().map(|run| Curve {
+                points: run.coverage_over_time.iter().map(|&[t, share]| (t, share * 100.0)).collect(),
+                style: color(i).mix(0.45).stroke_width(1),
+            }));
         }
+        bold.push(Curve {
+            points: median_curve(&runs).into_iter().map(|(t, share)| (t, share * 100.0)).collect(),
+            style: color(i).stroke_width(3),
+        });
     }
-    for (i, preset) in comparison.plan.presets.iter().enumerate() {
-        let runs: Vec<&ComparedRun> = comparison.runs_of(&preset.name, Some(world)).collect();
-        let points = median_curve(&runs).into_iter().map(|(t, share)| (t, share * 100.0));
-        chart.draw_series(LineSeries::new(points, color(i).stroke_width(3)))?;
-    }
-    root.present()?;
-    Ok(())
+    thin.append(&mut bold);
+    Chart { latest_s: latest, highest: 100.0, label: "coverage, %", is_large: true }.to_svg(thin)
 }
 
 /// The median of the covered shares at each moment until the last run has ended; a run
@@ -130,7 +102,7 @@ mod tests {
     fn a_chart_has_a_curve_for_each_preset_and_run() {
         let comparison = sample::comparison(sample::plan(&["a", "b"], &["w"], &[1, 2, 3]), |p| [10.0, 20.0][p]);
         let svg = coverage_curves_svg(&comparison, "w").unwrap();
-        assert!(svg.contains("currentColor") && !svg.contains(TEXT_HEX));
+        assert!(svg.contains("currentColor") && !svg.contains("#010203"));
         for preset in 0..2 {
             assert_eq!(svg.matches(&css_color(preset).to_uppercase()).count(), 3 + 1);
         }
