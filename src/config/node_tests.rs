@@ -1,3 +1,5 @@
+//! The node's parameters: how they are laid over presets, and what is said of wrong ones.
+
 use super::*;
 use serde_json::json;
 

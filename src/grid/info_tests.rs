@@ -1,3 +1,5 @@
+//! Cells and points in both directions, at corners and borders, and grids of one lattice.
+
 use super::*;
 use proptest::prelude::*;
 

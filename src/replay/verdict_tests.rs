@@ -1,3 +1,5 @@
+//! What can be done with bags that lack something, and what is said of it.
+
 use super::*;
 use crate::bag::FrameLink;
 use crate::replay::Wanted;

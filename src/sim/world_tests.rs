@@ -1,3 +1,5 @@
+//! The world: what is solid, where robots may start, and rays against the textbook walk.
+
 use super::*;
 use crate::grid::traverse;
 use proptest::prelude::*;

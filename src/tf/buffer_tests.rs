@@ -1,3 +1,5 @@
+//! Transforms between frames over time: chains, interpolation, what is missing, what is forgotten.
+
 use super::super::planar;
 use super::*;
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,3 +1,5 @@
+//! The mapper: what the rays of a scan say, how the map grows, and greys that add up.
+
 use super::*;
 use crate::config::LidarConfig;
 use crate::grid::{Cell, GridInfo, Thresholds};

@@ -1,3 +1,5 @@
+//! The simulated robot behind the port: when it observes what, how it drives, and that a seed decides all.
+
 use super::*;
 use crate::config::builtin_robot;
 use crate::control::{FollowerConfig, PathFollower};
