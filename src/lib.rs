@@ -24,6 +24,7 @@ pub mod report;
 pub mod robot;
 #[cfg(feature = "ros")]
 pub mod ros;
+pub mod run;
 pub mod scan;
 pub mod selection;
 pub mod sim;

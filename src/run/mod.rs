@@ -1,0 +1,14 @@
+//! Simulated, recorded and compared runs (the rim): what puts one together, drives it and
+//! records it, for the command line and the nodes.
+
+#[cfg(feature = "report")]
+pub mod comparison;
+mod named_world;
+mod pace;
+mod plan;
+#[cfg(feature = "report")]
+pub mod record;
+
+pub use named_world::NamedWorld;
+pub use pace::Pace;
+pub use plan::{Plan, PlanError};

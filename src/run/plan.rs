@@ -1,0 +1,109 @@
+//! What decides a simulated run, and what is made of it: `frontier explore`, the runs of
+//! `frontier compare` and `sim_node` all begin with a plan.
+
+use super::NamedWorld;
+use crate::config::{Preset, RobotConfig};
+use crate::explore::{Explorer, SettingsError};
+use crate::geometry::Pose;
+use crate::sim::{
+    Driver, DriverKind, MapStyle, OdometryNoise, Plant, SimConfig, SimError, SimRobot, SlamKind, WorldError,
+};
+use std::sync::Arc;
+
+/// Why a simulated run cannot begin.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The map is no world.
+    #[error("world {name}: {source}")]
+    World {
+        /// The world's name.
+        name: String,
+        /// What is wrong with it.
+        source: WorldError,
+    },
+    /// The robot cannot begin there, or a setting of the simulation cannot be.
+    #[error("world {world}: {source}")]
+    Sim {
+        /// The world's name.
+        world: String,
+        /// What is wrong.
+        source: SimError,
+    },
+    /// The explorer's settings contradict each other.
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+}
+
+/// What decides a run: the same plan gives the same run, byte for byte.
+#[derive(Clone)]
+pub struct Plan {
+    /// How to explore.
+    pub preset: Preset,
+    /// What explores: a validated robot.
+    pub robot: RobotConfig,
+    /// Where.
+    pub world: NamedWorld,
+    /// From where, metres and radians of the world's frame.
+    pub start: Pose,
+    /// Decides every random number.
+    pub seed: u64,
+    /// The values of the map.
+    pub map_style: MapStyle,
+    /// Standard deviation of ranges, metres, instead of the lidar's own.
+    pub lidar_noise_std_m: Option<f64>,
+    /// Errors of the odometry, instead of those that go with the SLAM.
+    pub odometry_noise: Option<OdometryNoise>,
+    /// How the robot knows where it is.
+    pub slam: SlamKind,
+    /// Who drives to goals.
+    pub driver: DriverKind,
+}
+
+impl Plan {
+    /// The robot at its start, and the explorer that has seen nothing.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a setting out of its range or a start where the robot does not fit.
+    pub fn prepare(&self) -> Result<(SimRobot, Explorer), PlanError> {
+        let navigator = self.preset.navigator(&self.robot.body());
+        let world = Arc::clone(&self.world.world);
+        let sim = SimRobot::new(world, &self.robot, self.sim_config(), navigator, self.start)
+            .map_err(|source| self.wrong(source))?;
+        Ok((sim, Explorer::new(self.preset.explorer.clone(), &self.robot.traits())?))
+    }
+
+    /// The robot at its start without a mind, and who drives it to goals.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub fn plant(&self) -> Result<(Plant, Driver), PlanError> {
+        let config = self.sim_config();
+        let world = Arc::clone(&self.world.world);
+        let plant = Plant::new(world, &self.robot, config, self.start).map_err(|source| self.wrong(source))?;
+        let own = self.preset.navigator(&self.robot.body());
+        Ok((plant, Driver::new(config.driver, config.move_base, &self.robot, config.seed, own)))
+    }
+
+    /// The simulation's settings: the preset's, and the world's resolution, so that coverage
+    /// and maps compare cell by cell.
+    #[must_use]
+    pub fn sim_config(&self) -> SimConfig {
+        let mut config = SimConfig {
+            seed: self.seed,
+            lidar_noise_std_m: self.lidar_noise_std_m,
+            control_period_s: self.preset.navigation.navigator.control_period_s,
+            thresholds: self.preset.explorer.thresholds,
+            odometry_noise: self.odometry_noise,
+            driver: self.driver,
+            ..SimConfig::default()
+        };
+        config.mapper.style = self.map_style;
+        config.mapper.resolution_m = self.world.world.info().resolution_m();
+        config.slam.kind = self.slam;
+        config
+    }
+
+    fn wrong(&self, source: SimError) -> PlanError {
+        PlanError::Sim { world: self.world.name.clone(), source }
+    }
+}
