@@ -16,6 +16,8 @@ pub mod io;
 pub mod mapping;
 pub mod matching;
 pub mod navigation;
+#[cfg(feature = "ros")]
+pub mod nodes;
 pub mod planning;
 pub mod range;
 pub mod replay;

@@ -26,19 +26,21 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
     ("navigation", &[FLOOR_0, &["planning", "control", "robot"]]),
     ("explore", &[FLOOR_0, FLOOR_1, &["robot"]]),
     ("config", &[FLOOR_0, FLOOR_1, FLOOR_2]),
-    // Floor 3: the rim, whose rooms do not use each other, but for files.
+    // Floor 3: the rim, whose rooms do not use each other.
     ("io", &[FLOOR_0, FLOOR_1, FLOOR_2]),
     ("sim", &[FLOOR_0, FLOOR_1, FLOOR_2]),
-    ("report", &[FLOOR_0, FLOOR_1, FLOOR_2, &["io"]]),
+    ("report", &[FLOOR_0, FLOOR_1, FLOOR_2]),
     ("bag", &[FLOOR_0, FLOOR_1, FLOOR_2]),
     // Scans become a map by the simulator's mapper.
     ("mapping", &[FLOOR_0, FLOOR_1, FLOOR_2, &["sim"]]),
     // A recording behind the port; where it lacks a map, one is made of its scans.
     ("replay", &[FLOOR_0, FLOOR_1, FLOOR_2, &["bag", "mapping"]]),
-    // The nodes: sim_node is the simulator behind ROS.
-    ("ros", &[FLOOR_0, FLOOR_1, FLOOR_2, &["io", "sim", "run"]]),
+    // The adapter is told what the configuration says.
+    ("ros", &[FLOOR_0, FLOOR_1, &["robot", "navigation", "explore"]]),
     // What assembles, drives and records runs stands above all that runs are made of.
     ("run", &[FLOOR_0, FLOOR_1, FLOOR_2, &["io", "sim", "report", "bag", "mapping", "replay"]]),
+    // The nodes: sim_node is the simulator behind ROS.
+    ("nodes", &[FLOOR_0, FLOOR_1, FLOOR_2, &["io", "sim", "ros", "run"]]),
 ];
 
 const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid", "bits", "tf"];
@@ -180,8 +182,7 @@ fn climbers(sources: &[Source]) -> Vec<String> {
 fn strays(sources: &[Source]) -> Vec<String> {
     let strays = |source: &Source| {
         let room = source.room();
-        let words =
-            PLACES.iter().filter(|(word, places)| source.says(word) && !places.contains(&room.as_str()));
+        let words = PLACES.iter().filter(|(word, places)| source.says(word) && !places.contains(&room.as_str()));
         words.map(|(word, _)| format!("{} contains {word}", source.path.display())).collect::<Vec<_>>()
     };
     sources.iter().flat_map(strays).collect()

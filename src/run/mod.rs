@@ -3,12 +3,14 @@
 
 #[cfg(feature = "report")]
 pub mod comparison;
+mod error;
 mod named_world;
 mod pace;
 mod plan;
 #[cfg(feature = "report")]
 pub mod record;
 
+pub use error::PlanError;
 pub use named_world::NamedWorld;
 pub use pace::Pace;
-pub use plan::{Plan, PlanError};
+pub use plan::Plan;

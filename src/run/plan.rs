@@ -1,38 +1,12 @@
 //! What decides a simulated run, and what is made of it: `frontier explore`, the runs of
 //! `frontier compare` and `sim_node` all begin with a plan.
 
-use super::NamedWorld;
+use super::{NamedWorld, PlanError};
 use crate::config::{Preset, RobotConfig};
-use crate::explore::{Explorer, SettingsError};
+use crate::explore::Explorer;
 use crate::geometry::Pose;
-use crate::sim::{
-    Driver, DriverKind, MapStyle, OdometryNoise, Plant, SimConfig, SimError, SimRobot, SlamKind, WorldError,
-};
+use crate::sim::{Driver, DriverKind, MapStyle, OdometryNoise, Plant, SimConfig, SimError, SimRobot, SlamKind};
 use std::sync::Arc;
-
-/// Why a simulated run cannot begin.
-#[derive(Debug, thiserror::Error)]
-pub enum PlanError {
-    /// The map is no world.
-    #[error("world {name}: {source}")]
-    World {
-        /// The world's name.
-        name: String,
-        /// What is wrong with it.
-        source: WorldError,
-    },
-    /// The robot cannot begin there, or a setting of the simulation cannot be.
-    #[error("world {world}: {source}")]
-    Sim {
-        /// The world's name.
-        world: String,
-        /// What is wrong.
-        source: SimError,
-    },
-    /// The explorer's settings contradict each other.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-}
 
 /// What decides a run: the same plan gives the same run, byte for byte.
 #[derive(Clone)]
@@ -105,5 +79,57 @@ impl Plan {
 
     fn wrong(&self, source: SimError) -> PlanError {
         PlanError::Sim { world: self.world.name.clone(), source }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::builtin_robot;
+    use crate::grid::Thresholds;
+    use crate::io::load_world;
+    use crate::robot::Robot;
+
+    fn plan(slam: SlamKind) -> Plan {
+        let (truth, name) = load_world("office").unwrap();
+        let mut preset = Preset::built_in("wfd").unwrap();
+        preset.explorer.thresholds = Thresholds { free_max: 10, occupied_min: 90 };
+        Plan {
+            preset,
+            robot: builtin_robot("turtlebot2").unwrap(),
+            world: NamedWorld::new(name, &truth).unwrap(),
+            start: Pose::new(1.5, 7.9, 0.0),
+            seed: 7,
+            map_style: MapStyle::Cartographer,
+            lidar_noise_std_m: None,
+            odometry_noise: None,
+            slam,
+            driver: DriverKind::beside(slam),
+        }
+    }
+
+    #[test]
+    fn a_plant_begins_as_the_robot_of_the_same_plan() {
+        for slam in [SlamKind::Perfect, SlamKind::Matched] {
+            let plan = plan(slam);
+            assert_eq!(plan.sim_config().thresholds, plan.preset.explorer.thresholds);
+            let ((plant, driver), (mut robot, _)) = (plan.plant().unwrap(), plan.prepare().unwrap());
+            assert_eq!(plant.map().data(), robot.map().data());
+            assert_eq!(plant.pose_in_map(), robot.pose_in_map());
+            let (_, scan) = robot.observe().unwrap().scan.unwrap();
+            assert_eq!(plant.scan().1.ranges_m, scan.ranges_m);
+            assert_eq!(matches!(driver, Driver::MoveBase { .. }), slam == SlamKind::Matched);
+            // Costs follow the preset: no cell of a first map is as free as it wants.
+            assert_eq!(plant.map().census(&plan.preset.explorer.thresholds).free, 0);
+            assert!(plant.map().census(&Thresholds::default()).free > 0);
+        }
+    }
+
+    #[test]
+    fn what_cannot_begin_names_its_world() {
+        let blocked = Plan { start: Pose::new(-9.0, 0.0, 0.0), ..plan(SlamKind::Perfect) };
+        let error = blocked.plant().err().unwrap().to_string();
+        assert!(error.starts_with("world office: "), "{error}");
+        assert_eq!(blocked.prepare().err().unwrap().to_string(), error);
     }
 }

@@ -31,5 +31,6 @@ pub use move_base::{InflatedPlanner, MoveBase, MoveBaseConfig, MoveBaseInput, gl
 pub use odometry::{Odometry, OdometryNoise};
 pub use plant::{Plant, Sensed, SimError, SimStats};
 pub use robot::SimRobot;
+pub(crate) use schedule::Periodic;
 pub use slam::{SlamConfig, SlamKind};
 pub use world::{World, WorldError};

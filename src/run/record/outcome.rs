@@ -39,14 +39,7 @@ pub(super) struct Outcome<'a> {
 impl Outcome<'_> {
     /// The run as `run.json` holds it; it took `total_s` seconds of real time. Notices and
     /// decisions leave the trail.
-    pub fn record(
-        self,
-        explorer: &Explorer,
-        end: &End,
-        series: &Series,
-        trail: &mut Trail,
-        total_s: f64,
-    ) -> RunRecord {
+    pub fn record(self, explorer: &Explorer, end: &End, series: &Series, trail: &mut Trail, total_s: f64) -> RunRecord {
         let counts = *explorer.counts();
         let area_m2 = |cells: fn(&Census) -> usize| {
             self.map.as_ref().map_or(0.0, |(grid, census)| cells(census) as f64 * grid.info().cell_area_m2())

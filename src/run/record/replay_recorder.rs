@@ -206,13 +206,7 @@ impl<R: Read + Seek> Watcher<BagRobot<R>> for ReplayRecorder<'_> {
         self.trail.before_step();
     }
 
-    fn after_step(
-        &mut self,
-        robot: &BagRobot<R>,
-        explorer: &Explorer,
-        observation: &Observation,
-        decision: &Decision,
-    ) {
+    fn after_step(&mut self, robot: &BagRobot<R>, explorer: &Explorer, observation: &Observation, decision: &Decision) {
         self.trail.after_step(explorer, observation, decision);
         self.agreement.after_step(robot.recorded_goals(), decision, observation.stamp_s);
         if let (Some(_), Some(out_bag), Some(map)) = (&decision.record, &self.out_bag, &observation.map) {
