@@ -39,8 +39,7 @@ mod tests {
         let info = GridInfo::new(3, 1, 1.0, Pose::default()).unwrap();
         let truth = OccupancyGrid::new(info, vec![64, 65, -1]).unwrap();
         let world = NamedWorld::new("greys".to_owned(), &truth).unwrap().world;
-        // A rim of one cell is around it.
-        assert_eq!([1, 2, 3].map(|x| world.is_solid(Cell::new(x, 1))), [false, true, true]);
+        assert_eq!([0, 1, 2].map(|x| world.is_solid(Cell::new(x, 0))), [false, true, true]);
         let full = OccupancyGrid::new(info, vec![100; 3]).unwrap();
         let error = NamedWorld::new("full".to_owned(), &full).err().unwrap().to_string();
         assert!(error.starts_with("world full: "), "{error}");

@@ -16,7 +16,7 @@ mod odometry;
 mod plant;
 mod ray;
 mod robot;
-mod schedule;
+pub(crate) mod schedule;
 mod slam;
 mod world;
 
@@ -31,6 +31,5 @@ pub use move_base::{InflatedPlanner, MoveBase, MoveBaseConfig, MoveBaseInput, gl
 pub use odometry::{Odometry, OdometryNoise};
 pub use plant::{Plant, Sensed, SimError, SimStats};
 pub use robot::SimRobot;
-pub(crate) use schedule::Periodic;
 pub use slam::{SlamConfig, SlamKind};
 pub use world::{World, WorldError};

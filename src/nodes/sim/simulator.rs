@@ -9,7 +9,8 @@ use crate::geometry::Twist;
 use crate::ros::msg::geometry_msgs::Twist as TwistMessage;
 use crate::ros::msg::std_msgs::String as StringMessage;
 use crate::ros::{Feed, Node, convert};
-use crate::sim::{DriverKind, InflatedPlanner, Periodic, Plant, SimStats};
+use crate::sim::schedule::Periodic;
+use crate::sim::{DriverKind, InflatedPlanner, Plant, SimStats};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 

@@ -4,7 +4,6 @@ use super::StartsError;
 use crate::io::MapError;
 use crate::report::ReportError;
 use crate::run::PlanError;
-use crate::sim::WorldError;
 
 /// Runs that cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -19,14 +18,6 @@ pub enum CompareError {
         world: String,
         /// Why there are none.
         source: StartsError,
-    },
-    /// The robot cannot start where it is to.
-    #[error("world {world}: {source}")]
-    Start {
-        /// The world's name.
-        world: String,
-        /// What is in the way.
-        source: WorldError,
     },
     /// Two have the same name: tables could not tell them apart.
     #[error("there are two {what}s with the name {name:?}: each must have its own")]
@@ -48,7 +39,7 @@ pub enum CompareError {
     /// A run that names a preset, a world or a start that is not there.
     #[error("run {0} is not in the plan")]
     NotPlanned(usize),
-    /// A run cannot begin.
+    /// A run cannot begin, or not where it is to.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The system gives no threads.

@@ -4,7 +4,7 @@ use super::{CompareError, Starts};
 use crate::config::RobotConfig;
 use crate::io::load_world;
 use crate::report::{ComparedWorld, WorldPicture};
-use crate::run::NamedWorld;
+use crate::run::{NamedWorld, PlanError};
 
 /// A world that runs can share, and what reports say of it.
 pub(super) struct LoadedWorld {
@@ -25,10 +25,8 @@ pub(super) fn load_worlds(
         let named = NamedWorld::new(name.clone(), &truth)?;
         let starts = starts.of(&named).map_err(|source| CompareError::Starts { world: name.clone(), source })?;
         for start in &starts {
-            named
-                .world
-                .check_start(start, &robot.footprint)
-                .map_err(|source| CompareError::Start { world: name.clone(), source })?;
+            let wrong = |source| PlanError::World { name: name.clone(), source };
+            named.world.check_start(start, &robot.footprint).map_err(wrong)?;
         }
         let picture = WorldPicture::of(&truth)?;
         Ok(LoadedWorld { named, compared: ComparedWorld { name, starts, picture } })

@@ -4,7 +4,7 @@
 use crate::exit::Outcome;
 use crate::{inputs, output, values};
 use anyhow::{Context, anyhow, bail};
-use frontier_explorer::io::load_world;
+use frontier_explorer::io::{load_preset, load_robot, load_world};
 use frontier_explorer::nodes::{explore_with, simulate_with};
 use frontier_explorer::ros::{Node, start_embedded_master, stop};
 use frontier_explorer::sim::{DriverKind, SlamKind};
@@ -50,8 +50,8 @@ pub struct Args {
 /// Runs `frontier demo`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     // What is wrong is said before anything begins.
-    inputs::preset(&args.config)?;
-    inputs::robot(&args.robot)?;
+    load_preset(&args.config)?;
+    load_robot(&args.robot)?;
     load_world(&args.world)?;
     let Ok(port) = std::env::var(READY) else { return begin_anew(args.port) };
     let port = port.parse().with_context(|| format!("{READY} is {port:?}: must be a port"))?;

@@ -5,12 +5,11 @@ mod shard;
 mod starts;
 mod tables;
 
-use super::explore::robot_help;
 use crate::exit::Outcome;
 use crate::{inputs, output, stop, values};
 use anyhow::Context;
 use frontier_explorer::config::Preset;
-use frontier_explorer::io::{BUILT_IN_WORLDS, write_atomic};
+use frontier_explorer::io::{BUILT_IN_WORLDS, load_preset, load_robot, write_atomic};
 use frontier_explorer::report::Comparison;
 use frontier_explorer::run::comparison::{Runner, Starts};
 use frontier_explorer::sim::SlamKind;
@@ -37,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "SEED,...", value_delimiter = ',', default_value = "1")]
     seeds: Vec<u64>,
     /// The robot: a YAML file, or the name of a built-in robot.
-    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = inputs::robot_help())]
     robot: String,
     /// perfect: the true pose and a map without errors, driven by our own navigator; or
     /// matched: a SLAM that errs and a stand-in for move_base, as in `frontier explore`.
@@ -96,7 +95,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
 
 /// Makes the runs of a part; also tells how many they should be.
 fn compare(args: &Args) -> anyhow::Result<(Comparison, usize)> {
-    let robot = inputs::robot(&args.robot)?;
+    let robot = load_robot(&args.robot)?;
     robot.validate().with_context(|| format!("robot {}", robot.name))?;
     let presets = presets(args)?;
     let starts = args.starts.as_ref().map_or_else(|| Ok(Starts::default()), StartsArg::load)?;
@@ -116,7 +115,7 @@ fn presets(args: &Args) -> anyhow::Result<Vec<Preset>> {
         if name == "all" {
             presets.extend(Preset::names().map(Preset::built_in).collect::<Result<Vec<_>, _>>()?);
         } else {
-            presets.push(inputs::preset(name)?);
+            presets.push(load_preset(name)?);
         }
     }
     Ok(presets)

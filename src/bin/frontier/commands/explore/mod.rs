@@ -8,7 +8,7 @@ use anyhow::Context;
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::explore::{End, run as explore};
 use frontier_explorer::geometry::Pose;
-use frontier_explorer::io::load_world;
+use frontier_explorer::io::{load_preset, load_robot, load_world};
 use frontier_explorer::report::RunRecord;
 use frontier_explorer::run::record::{RunFolder, SimBag, SimRecorder};
 use frontier_explorer::run::{NamedWorld, Plan};
@@ -27,7 +27,7 @@ pub struct Args {
     #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
-    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = inputs::robot_help())]
     robot: String,
     /// Where the robot begins: X,Y or X,Y,YAW in metres and radians. The most open spot
     /// when left out.
@@ -68,10 +68,6 @@ pub struct Args {
     /// Print nothing but errors.
     #[arg(long, short)]
     quiet: bool,
-}
-
-pub fn robot_help() -> String {
-    format!("The robot: a YAML file, or one of the built-in robots: {}", inputs::robot_names())
 }
 
 fn parse_style(text: &str) -> Result<MapStyle, String> {
@@ -126,7 +122,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
 
 /// The preset with what the command line overrides.
 fn configured_preset(args: &Args) -> anyhow::Result<Preset> {
-    let mut preset = inputs::preset(&args.config)?;
+    let mut preset = load_preset(&args.config)?;
     preset.explorer.return_to_start |= args.return_to_start;
     if args.time_limit.is_some() {
         preset.explorer.patience.time_limit_s = args.time_limit;
@@ -136,7 +132,7 @@ fn configured_preset(args: &Args) -> anyhow::Result<Preset> {
 
 /// The robot with what the command line overrides.
 fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
-    let mut robot = inputs::robot(&args.robot)?;
+    let mut robot = load_robot(&args.robot)?;
     if let Some(range_m) = args.lidar_range {
         robot.lidar.range_max_m = range_m;
     }

@@ -8,6 +8,7 @@ use crate::{inputs, output, stop, values};
 use anyhow::bail;
 use frontier_explorer::bag::Summary;
 use frontier_explorer::explore::{EndReason, Explorer, run as explore};
+use frontier_explorer::io::{load_preset, load_robot};
 use frontier_explorer::mapping::BuilderConfig;
 use frontier_explorer::replay::{BagRobot, Inputs, Player, Wanted};
 use frontier_explorer::report::RunRecord;
@@ -74,7 +75,7 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Runs `frontier replay`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let began = Instant::now();
-    let (preset, robot_config) = (inputs::preset(&args.config)?, inputs::robot(&args.robot)?);
+    let (preset, robot_config) = (load_preset(&args.config)?, load_robot(&args.robot)?);
     let summary = bag::summary(&args.bag)?;
     let wanted = Wanted {
         map_topic: args.map_topic.clone(),
