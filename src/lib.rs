@@ -16,6 +16,8 @@ pub mod io;
 pub mod mapping;
 pub mod matching;
 pub mod navigation;
+#[cfg(feature = "ros")]
+pub mod nodes;
 pub mod planning;
 pub mod range;
 pub mod replay;
@@ -24,6 +26,7 @@ pub mod report;
 pub mod robot;
 #[cfg(feature = "ros")]
 pub mod ros;
+pub mod run;
 pub mod scan;
 pub mod selection;
 pub mod sim;

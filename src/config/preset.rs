@@ -3,7 +3,8 @@
 use super::names::{hint, one_line};
 use crate::control::ControllerConfig;
 use crate::explore::{ExplorerSettings, SettingsError};
-use crate::navigation::NavigatorConfig;
+use crate::geometry::Body;
+use crate::navigation::{Navigator, NavigatorConfig};
 use crate::range::OutOfRange;
 use serde::{Deserialize, Serialize};
 
@@ -121,6 +122,13 @@ impl Preset {
     pub fn validate(&self) -> Result<(), PresetError> {
         self.explorer.validate()?;
         Ok(self.navigation.validate()?)
+    }
+
+    /// What drives a body to goals with our own planner and controller.
+    #[must_use]
+    pub fn navigator(&self, body: &Body) -> Navigator {
+        let NavigationSettings { navigator, controller, .. } = self.navigation;
+        Navigator::new(navigator, self.explorer.planner.build(body), controller.build(body), body)
     }
 }
 

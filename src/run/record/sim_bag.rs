@@ -1,16 +1,18 @@
 //! A simulated run as a bag with the topics that a robot with move_base has, five times a
 //! second: what `rosbag record` would have got from `sim_node`.
 
-use crate::bag_file::BagFile;
-use frontier_explorer::bag::{
+use super::RecordError;
+use super::bag_file::BagFile;
+use crate::bag::{
     Header, MessageType, clock_message, goal_message, map_message, nanos, odometry_message, result_message,
     scan_message, tf_message,
 };
-use frontier_explorer::explore::Decision;
-use frontier_explorer::geometry::{Pose, Twist};
-use frontier_explorer::robot::{Command, CommandId, NavigationState, Observation};
-use frontier_explorer::sim::SimRobot;
-use frontier_explorer::tf::TransformSample;
+use crate::config::LidarConfig;
+use crate::explore::Decision;
+use crate::geometry::{Pose, Twist};
+use crate::robot::{Command, CommandId, NavigationState, Observation};
+use crate::sim::SimRobot;
+use crate::tf::TransformSample;
 use std::path::Path;
 
 /// The second of the bag at which the simulation begins: ROS takes time 0 for none.
@@ -22,7 +24,7 @@ const BASE: &str = "base_footprint";
 const LIDAR: &str = "base_scan";
 
 /// The bag while the run goes on.
-pub struct Recording {
+pub struct SimBag {
     file: BagFile,
     topics: Topics,
     mount: Pose,
@@ -45,10 +47,13 @@ struct Topics {
     result: u32,
 }
 
-impl Recording {
-    /// Begins a bag of a robot whose lidar stands at `mount` and takes a sweep in
-    /// `scan_period_s` seconds.
-    pub fn create(path: &Path, mount: Pose, scan_period_s: f64) -> anyhow::Result<Self> {
+impl SimBag {
+    /// Begins the bag of a robot with this lidar.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`] with the file.
+    pub fn create(path: &Path, lidar: &LidarConfig) -> Result<Self, RecordError> {
+        let (mount, scan_period_s) = (lidar.mount, 1.0 / lidar.rate_hz);
         let mut file = BagFile::create(path)?;
         let topics = Topics {
             clock: file.topic("/clock", MessageType::Clock, false),
@@ -64,7 +69,7 @@ impl Recording {
     }
 
     /// Writes what was observed in a tick, and what was decided.
-    pub fn tick(&mut self, sim: &SimRobot, observation: &Observation, decision: &Decision) {
+    pub(super) fn tick(&mut self, sim: &SimRobot, observation: &Observation, decision: &Decision) {
         let now_s = observation.stamp_s;
         let at = nanos(BEGIN_S + now_s);
         self.file.put(self.topics.clock, at, &clock_message(at));
@@ -96,7 +101,7 @@ impl Recording {
     }
 
     /// Closes the bag.
-    pub fn finish(&mut self) -> anyhow::Result<()> {
+    pub(super) fn finish(&mut self) -> Result<(), RecordError> {
         self.file.finish()
     }
 

@@ -7,25 +7,23 @@
 //! squares three cells apart. Costs are published once a second, first whole, then what has
 //! changed.
 
-use super::super::convert;
-use super::super::feed::Feed;
-use super::super::msg::actionlib_msgs::{GoalID, GoalStatus, GoalStatusArray};
-use super::super::msg::geometry_msgs::PoseStamped;
-use super::super::msg::map_msgs::OccupancyGridUpdate;
-use super::super::msg::move_base_msgs::{
-    MoveBaseActionFeedback, MoveBaseActionGoal, MoveBaseActionResult, MoveBaseFeedback, MoveBaseResult,
-};
-use super::super::msg::nav_msgs::{GetPlan, GetPlanRes, OccupancyGrid as GridMessage, Path as PathMessage};
-use super::super::msg::std_srvs;
-use super::super::node::{Node, NodeError};
-use super::goal_book::{Entry, GoalBook};
 use super::params::Fault;
 use crate::geometry::{Pose, Twist};
 use crate::grid::{Costmap, GridPatch, OccupancyGrid};
 use crate::planning::{GlobalPlanner, Path};
 use crate::robot::{Command, CommandId, NavigationState};
+use crate::ros::actionlib::{Entry, GoalBook};
+use crate::ros::msg::actionlib_msgs::{GoalID, GoalStatus, GoalStatusArray};
+use crate::ros::msg::geometry_msgs::PoseStamped;
+use crate::ros::msg::map_msgs::OccupancyGridUpdate;
+use crate::ros::msg::move_base_msgs::{
+    MoveBaseActionFeedback, MoveBaseActionGoal, MoveBaseActionResult, MoveBaseFeedback, MoveBaseResult,
+};
+use crate::ros::msg::nav_msgs::{GetPlan, GetPlanRes, OccupancyGrid as GridMessage, Path as PathMessage};
+use crate::ros::msg::std_srvs;
+use crate::ros::{Feed, Node, NodeError, Publisher, Service, convert};
 use crate::sim::{Driver, Plant};
-use rosrust::{Publisher, Service};
+
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -242,16 +240,16 @@ fn listen(node: &Node, orders: &Arc<Mutex<Vec<Order>>>) -> Vec<Feed> {
     let count = Mutex::new(0_u64);
     let owner = node.clone();
     vec![
-        node.listen_seldom("move_base/goal", 10, LOOK, move |message: MoveBaseActionGoal, _| {
+        Feed::listen_seldom(node, "move_base/goal", 10, LOOK, move |message: MoveBaseActionGoal, _| {
             push(&goals, Order::Goal(message.goal_id, convert::pose(&message.goal.target_pose.pose)));
         }),
-        node.listen_seldom("move_base_simple/goal", 10, LOOK, move |message: PoseStamped, _| {
+        Feed::listen_seldom(node, "move_base_simple/goal", 10, LOOK, move |message: PoseStamped, _| {
             let mut count = count.lock().unwrap_or_else(PoisonError::into_inner);
             *count += 1;
             let id = GoalID { stamp: owner.stamp(), id: format!("{}-simple-{count}", owner.name()) };
             push(&simple, Order::Goal(id, convert::pose(&message.pose)));
         }),
-        node.listen_seldom("move_base/cancel", 10, LOOK, move |message: GoalID, _| {
+        Feed::listen_seldom(node, "move_base/cancel", 10, LOOK, move |message: GoalID, _| {
             push(&cancels, Order::Cancel(message));
         }),
     ]

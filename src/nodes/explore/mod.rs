@@ -4,53 +4,24 @@ mod connect;
 mod controls;
 mod outputs;
 mod saving;
+mod settings;
 mod watcher;
 
-use super::display::status_sentence;
-use super::node::{Node, NodeError};
-use super::program::{has_helped, run_program};
-use super::robot::RosRobot;
-use super::stop;
-use crate::config::{BUILTIN_ROBOTS, NodeParams, NodeParamsError, Preset, RobotConfig};
-use crate::explore::{End, Explorer, SettingsError, run as explore};
+pub use settings::ExploreNodeError;
+
+use crate::config::{BUILTIN_ROBOTS, Preset};
+use crate::explore::{End, Explorer, run as explore};
 use crate::geometry::Polygon;
-use crate::io::{SettingsFileError, load_preset, load_robot};
+use crate::ros::display::status_sentence;
+use crate::ros::program::{has_helped, run_program};
+use crate::ros::{Node, RosRobot, stop};
 use connect::connect;
 use controls::{Controls, Request};
 use outputs::Outputs;
 use saving::MapSaver;
+use settings::Settings;
 use std::sync::Arc;
-use std::time::Duration;
 use watcher::NodeWatcher;
-
-/// Why the node cannot do its work.
-#[derive(Debug, thiserror::Error)]
-pub enum ExploreNodeError {
-    /// ROS refuses.
-    #[error(transparent)]
-    Node(#[from] NodeError),
-    /// A parameter is wrong.
-    #[error(transparent)]
-    Params(#[from] NodeParamsError),
-    /// A preset or a robot that a parameter names cannot be had.
-    #[error("parameter ~{parameter}: {source}")]
-    File {
-        /// Which parameter.
-        parameter: &'static str,
-        /// What is wrong.
-        source: SettingsFileError,
-    },
-    /// The settings contradict each other.
-    #[error(transparent)]
-    Settings(#[from] SettingsError),
-}
-
-/// Everything that the parameters say, checked.
-pub(super) struct Settings {
-    params: NodeParams,
-    preset: Preset,
-    robot: RobotConfig,
-}
 
 /// Runs the node until it is told to stop, or, with `~exit_when_done`, until the
 /// exploration has ended. Returns the exit code: 0 done, 1 failed or the map was not saved,
@@ -82,21 +53,6 @@ fn help() -> String {
     )
 }
 
-fn read_settings(node: &Node) -> Result<Settings, ExploreNodeError> {
-    let mut params = NodeParams::from_tree(node.private_params()?)?;
-    let file = |parameter, source| ExploreNodeError::File { parameter, source };
-    let base = load_preset(params.base_preset()).map_err(|e| file("config", e))?;
-    let robot = load_robot(&params.robot).map_err(|e| file("robot", e))?;
-    let preset = params.apply_to(base)?;
-    if let (Some(prefix), false) = (node.searched_param("tf_prefix"), params.base_frame.starts_with('/')) {
-        let prefix = prefix.trim_matches('/');
-        if !prefix.is_empty() {
-            params.base_frame = format!("{prefix}/{}", params.base_frame);
-        }
-    }
-    Ok(Settings { params, preset, robot })
-}
-
 /// Explores with a node that has begun, as [`explore_node`] does; returns the exit code.
 ///
 /// # Errors
@@ -107,7 +63,7 @@ pub fn explore_with(node: &Node) -> Result<u8, ExploreNodeError> {
 
 /// Explores, and tells the exit code when all is done but to give back what is registered.
 fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeError> {
-    let settings = read_settings(node)?;
+    let settings = Settings::read(node)?;
     let (mut robot, mut connected) = connect(node, &settings)?;
     let Settings { params, preset, .. } = &settings;
     let saver = Arc::new(MapSaver::new(&params.map_file, connected.maps.clone(), node.log(), &connected.troubles));
@@ -190,16 +146,4 @@ fn tell_latency(node: &Node, latencies_ms: &[f64]) {
             "from a map to the goal that it led to: median {median_ms:.1} ms, worst {worst_ms:.1} ms, {count} goals"
         ));
     }
-}
-
-/// Waits for one map of a topic and returns it: `frontier map save`.
-///
-/// # Errors
-/// A sentence when none comes in time, or the node is told to stop.
-pub fn receive_map(node: &Node, topic: &str, limit: Duration) -> Result<super::ReceivedMap, String> {
-    let bell = std::sync::Arc::default();
-    let feed = super::map_feed::MapFeed::listen(node, topic, "", &bell);
-    let reader = feed.reader();
-    node.wait_until(limit, || reader.newest().is_some());
-    reader.newest().ok_or_else(|| format!("no map came on {topic} for {} s", limit.as_secs()))
 }

@@ -10,8 +10,7 @@ use crate::robot::Observation;
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
 use crate::ros::msg::frontier_explorer::ExplorationStatus;
-use crate::ros::node::Node;
-use crate::ros::robot::RosRobot;
+use crate::ros::{Node, RosRobot};
 
 /// Steps shorter than this are noise of the localisation, metres.
 const STEP_M: f64 = 0.02;

@@ -1,12 +1,11 @@
 //! The folder in which an exploration leaves its results.
 
-use crate::trail::Trail;
-use anyhow::Context;
-use frontier_explorer::explore::ExplorerSettings;
-use frontier_explorer::geometry::Pose;
-use frontier_explorer::grid::OccupancyGrid;
-use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
-use frontier_explorer::report::{Animation, Beside, FrameLog, HtmlReport, Picture, ReportError, RunRecord, Theme};
+use super::{RecordError, Trail};
+use crate::explore::ExplorerSettings;
+use crate::geometry::Pose;
+use crate::grid::OccupancyGrid;
+use crate::io::{SaveOptions, create_folder, save_map, write_atomic};
+use crate::report::{Animation, Beside, FrameLog, HtmlReport, Picture, ReportError, RunRecord, Theme};
 use std::path::{Path, PathBuf};
 
 /// A folder that exists, and the name of the animation in it.
@@ -17,18 +16,21 @@ pub struct RunFolder {
 
 impl RunFolder {
     /// Makes the folder if it is not there.
-    pub fn create(path: &Path, animation: &'static str) -> anyhow::Result<Self> {
-        std::fs::create_dir_all(path).with_context(|| format!("cannot make the folder {}", path.display()))?;
+    ///
+    /// # Errors
+    /// [`RecordError::Folder`] when the file system refuses.
+    pub fn create(path: &Path, animation: &'static str) -> Result<Self, RecordError> {
+        create_folder(path).map_err(|source| RecordError::Folder { path: path.to_owned(), source })?;
         Ok(Self { folder: path.to_owned(), animation })
     }
 
     /// The path of a file in it.
-    pub fn path(&self, name: &str) -> PathBuf {
+    pub(super) fn path(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
 
     /// The files of an exploration, the report first.
-    pub fn files(&self) -> impl Iterator<Item = PathBuf> + '_ {
+    fn files(&self) -> impl Iterator<Item = PathBuf> + '_ {
         ["report.html", "run.json", "map.yaml", "map.pgm", "map.png", self.animation]
             .into_iter()
             .map(|name| self.path(name))
@@ -36,7 +38,7 @@ impl RunFolder {
 
     /// Writes all results; the map first, as it is what the run was for. The files that were
     /// written, the report first: where no frame was seen, there is no animation.
-    pub fn write(
+    pub(super) fn write(
         &self,
         record: &RunRecord,
         trail: &Trail,
@@ -44,7 +46,7 @@ impl RunFolder {
         end_in_map: Option<Pose>,
         settings: &ExplorerSettings,
         beside: Option<&Beside>,
-    ) -> anyhow::Result<Vec<PathBuf>> {
+    ) -> Result<Vec<PathBuf>, RecordError> {
         save_map(&self.path("map.yaml"), grid, &SaveOptions::default())?;
         self.save("run.json", &record.to_json()?)?;
         let picture = Picture {
@@ -76,9 +78,10 @@ impl RunFolder {
         Ok(self.files().filter(|path| Some(path) != animation.as_ref()).collect())
     }
 
-    /// Writes one file.
-    pub fn save(&self, name: &str, bytes: &[u8]) -> anyhow::Result<()> {
+    /// Writes one file; its path.
+    pub(super) fn save(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, RecordError> {
         let path = self.path(name);
-        write_atomic(&path, bytes).with_context(|| format!("cannot write {}", path.display()))
+        write_atomic(&path, bytes).map_err(RecordError::write(&path))?;
+        Ok(path)
     }
 }

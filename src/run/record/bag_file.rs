@@ -1,13 +1,13 @@
 //! A bag that appears whole when it is finished. What fails on the way is told then.
 
-use anyhow::Context;
-use frontier_explorer::bag::{BagWriter, Compression, Connection, MessageType, Nanos};
-use frontier_explorer::io::AtomicFile;
+use super::RecordError;
+use crate::bag::{BagWriter, Compression, Connection, MessageType, Nanos};
+use crate::io::AtomicFile;
 use std::io;
 use std::path::{Path, PathBuf};
 
 /// A bag while it is written.
-pub struct BagFile {
+pub(super) struct BagFile {
     path: PathBuf,
     writer: Option<BagWriter<AtomicFile>>,
     failed: Option<io::Error>,
@@ -15,9 +15,9 @@ pub struct BagFile {
 
 impl BagFile {
     /// Begins one.
-    pub fn create(path: &Path) -> anyhow::Result<Self> {
+    pub fn create(path: &Path) -> Result<Self, RecordError> {
         let begin = || BagWriter::new(AtomicFile::create(path)?, Compression::Lz4);
-        let writer = begin().with_context(|| format!("cannot write {}", path.display()))?;
+        let writer = begin().map_err(RecordError::write(path))?;
         Ok(Self { path: path.to_owned(), writer: Some(writer), failed: None })
     }
 
@@ -41,12 +41,12 @@ impl BagFile {
     }
 
     /// Closes it.
-    pub fn finish(&mut self) -> anyhow::Result<()> {
+    pub fn finish(&mut self) -> Result<(), RecordError> {
         let outcome = match (self.failed.take(), self.writer.take()) {
             (Some(error), _) => Err(error),
             (None, Some(writer)) => writer.finish().and_then(AtomicFile::commit),
             (None, None) => Ok(()),
         };
-        outcome.with_context(|| format!("cannot write {}", self.path.display()))
+        outcome.map_err(RecordError::write(&self.path))
     }
 }

@@ -3,17 +3,15 @@
 
 use super::connect::Connected;
 use super::saving::save_as;
-use super::{ExploreNodeError, Settings};
+use super::settings::{ExploreNodeError, Settings};
 use crate::geometry::{Point, Polygon};
 use crate::planning::GlobalPlanner;
-use crate::ros::feed::Feed;
 use crate::ros::move_base::AskingPlanner;
 use crate::ros::msg::geometry_msgs::{PointStamped, PolygonStamped};
 use crate::ros::msg::std_msgs::Bool;
 use crate::ros::msg::std_srvs::{Trigger, TriggerRes};
-use crate::ros::node::Node;
 use crate::ros::region::{Clicked, RegionDrawing};
-use rosrust::Service;
+use crate::ros::{Feed, Node, Service};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -121,7 +119,7 @@ fn push(requests: &Mutex<Vec<Request>>, request: Request) {
 fn listen_to_resume(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
     let (requests, paused, bell) = (Arc::clone(requests), Arc::clone(&connected.paused), Arc::clone(&connected.bell));
     let log = node.log().clone();
-    node.listen_seldom("explore/resume", 5, LOOK, move |message: Bool, _| {
+    Feed::listen_seldom(node, "explore/resume", 5, LOOK, move |message: Bool, _| {
         let was_paused = paused.swap(!message.data, Ordering::Relaxed);
         match (was_paused, message.data) {
             (true, true) => log.info("going on"),
@@ -136,7 +134,7 @@ fn listen_to_resume(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected:
 fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
     let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
     let drawing = Mutex::new(RegionDrawing::default());
-    node.listen_seldom("clicked_point", 10, LOOK, move |message: PointStamped, _| {
+    Feed::listen_seldom(node, "clicked_point", 10, LOOK, move |message: PointStamped, _| {
         if !is_in_frame(&frame, &message.header.frame_id) {
             log.warn(format_args!("a clicked point in the frame {}: must be in the map's", message.header.frame_id));
             return;
@@ -156,7 +154,7 @@ fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected:
 
 fn listen_to_regions(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
     let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
-    node.listen_seldom("~set_region", 5, LOOK, move |message: PolygonStamped, _| {
+    Feed::listen_seldom(node, "~set_region", 5, LOOK, move |message: PolygonStamped, _| {
         if !is_in_frame(&frame, &message.header.frame_id) {
             log.warn(format_args!("a region in the frame {}: must be in the map's", message.header.frame_id));
             return;

@@ -1,10 +1,10 @@
 //! What is remembered of any exploration, simulated or recorded: decisions, goals, the way
 //! and the growing map.
 
-use frontier_explorer::explore::{CandidateStatus, Decision, DecisionRecord, Explorer};
-use frontier_explorer::geometry::Point;
-use frontier_explorer::report::{Frame, FrameLog, MedianMax, Notice, PictureGoal, Wall};
-use frontier_explorer::robot::Observation;
+use crate::explore::{CandidateStatus, Decision, DecisionRecord, Explorer};
+use crate::geometry::Point;
+use crate::report::{Frame, FrameLog, MedianMax, Notice, PictureGoal, Wall};
+use crate::robot::Observation;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -12,7 +12,7 @@ use std::time::Instant;
 const TRAJECTORY_STEP_M: f64 = 0.05;
 
 /// The trail of one exploration.
-pub struct Trail {
+pub(crate) struct Trail {
     step_began: Instant,
     decision_ms: Vec<f64>,
     failed_before: usize,

@@ -2,7 +2,7 @@
 
 use super::connect::Connected;
 use super::saving::MapSaver;
-use super::{ExploreNodeError, Settings};
+use super::settings::{ExploreNodeError, Settings};
 use crate::explore::{Counts, Decision, DecisionRecord, Explorer, Phase, TimeSpent};
 use crate::geometry::Path;
 use crate::ros::convert;
@@ -16,9 +16,8 @@ use crate::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
 use crate::ros::msg::geometry_msgs::{PolygonStamped, PoseStamped};
 use crate::ros::msg::nav_msgs;
 use crate::ros::msg::visualization_msgs::MarkerArray;
-use crate::ros::node::Node;
 use crate::ros::troubles::Troubles;
-use rosrust::Publisher;
+use crate::ros::{Node, Publisher};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};

@@ -1,16 +1,15 @@
 //! From settings to connections.
 
-use super::super::robot_map::{CostmapFeed, RobotMap};
-use super::{ExploreNodeError, Settings};
+use super::settings::{ExploreNodeError, Settings};
 use crate::config::{Drive, TurnBy};
 use crate::frontier::DetectorKind;
-use crate::navigation::Navigator;
+use crate::ros::Node;
 use crate::ros::bell::Bell;
 use crate::ros::map_feed::{MapFeed, MapReader};
 use crate::ros::move_base::MoveBase;
-use crate::ros::node::Node;
 use crate::ros::pilot::{Pilot, PilotConfig};
 use crate::ros::robot::{Connections, RosRobot, RosRobotConfig};
+use crate::ros::robot_map::{CostmapFeed, RobotMap};
 use crate::ros::scan_feed::ScanFeed;
 use crate::ros::transforms::Transforms;
 use crate::ros::troubles::Troubles;
@@ -48,8 +47,7 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
     let scans = needs_scans.then(|| Arc::new(ScanFeed::listen(node, "scan")));
     let move_base = if drives_itself { None } else { Some(MoveBase::connect(node, &params.move_base, &bell)?) };
     let body = robot.body();
-    let navigator =
-        Navigator::new(navigation.navigator, explorer.planner.build(&body), navigation.controller.build(&body), &body);
+    let navigator = preset.navigator(&body);
     let pilot_config = PilotConfig {
         base_frame: params.base_frame.clone(),
         transform_tolerance_s: params.transform_tolerance,

@@ -1,22 +1,21 @@
 //! What a robot with gmapping publishes: scans, odometry, transforms, the map, and the
 //! clock.
 
-use super::super::convert;
-use super::super::msg::geometry_msgs::{
-    PoseWithCovariance, Transform, TransformStamped, Twist as TwistMessage, TwistWithCovariance, Vector3,
-};
-use super::super::msg::nav_msgs::{
-    GetMap, GetMapRes, MapMetaData, OccupancyGrid as GridMessage, Odometry as OdometryMessage,
-};
-use super::super::msg::rosgraph_msgs::Clock;
-use super::super::msg::sensor_msgs::LaserScan as ScanMessage;
-use super::super::msg::tf2_msgs::TFMessage;
-use super::super::node::{Node, NodeError};
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
 use crate::grid::OccupancyGrid;
+use crate::ros::msg::geometry_msgs::{
+    PoseWithCovariance, Transform, TransformStamped, Twist as TwistMessage, TwistWithCovariance, Vector3,
+};
+use crate::ros::msg::nav_msgs::{
+    GetMap, GetMapRes, MapMetaData, OccupancyGrid as GridMessage, Odometry as OdometryMessage,
+};
+use crate::ros::msg::rosgraph_msgs::Clock;
+use crate::ros::msg::sensor_msgs::LaserScan as ScanMessage;
+use crate::ros::msg::tf2_msgs::TFMessage;
+use crate::ros::{Node, NodeError, Publisher, Service, convert};
 use crate::sim::Plant;
-use rosrust::{Publisher, Service};
+
 use std::sync::{Arc, Mutex, PoisonError};
 
 const MAP: &str = "map";

@@ -1,15 +1,16 @@
 //! A bag with the recorded map and transforms and with what we decided, for RViz.
 
-use crate::bag_file::BagFile;
-use frontier_explorer::bag::{
+use super::RecordError;
+use super::bag_file::BagFile;
+use crate::bag::{
     Connection, Header, MessageType, Nanos, PlayedMessage, map_message, marker_message, nanos, path_message,
     pose_message, seconds, tf_message,
 };
-use frontier_explorer::explore::Decision;
-use frontier_explorer::geometry::{Point, Pose};
-use frontier_explorer::grid::OccupancyGrid;
-use frontier_explorer::replay::{Inputs, ScanMapping, Tap};
-use frontier_explorer::tf::TransformSample;
+use crate::explore::Decision;
+use crate::geometry::{Point, Pose};
+use crate::grid::OccupancyGrid;
+use crate::replay::{Inputs, ScanMapping, Tap};
+use crate::tf::TransformSample;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -39,8 +40,11 @@ pub struct OutBag {
 }
 
 impl OutBag {
-    /// Begins it.
-    pub fn create(path: &Path, inputs: &Inputs, begin: Nanos) -> anyhow::Result<Self> {
+    /// Begins the bag of a replay of these inputs, whose recording begins at `begin`.
+    ///
+    /// # Errors
+    /// [`RecordError::Write`] with the file.
+    pub fn create(path: &Path, inputs: &Inputs, begin: Nanos) -> Result<Self, RecordError> {
         let mut file = BagFile::create(path)?;
         let (frontiers, goal, path) = (
             file.topic("/explore/frontiers", MessageType::Markers, true),
@@ -55,13 +59,14 @@ impl OutBag {
     }
 
     /// Takes the recorded map, transforms and scans over.
+    #[must_use]
     pub fn tap(&self) -> Tap {
         let inner = Rc::clone(&self.inner);
         Box::new(move |message| inner.borrow_mut().copy(message))
     }
 
     /// Writes the outcome of a decision.
-    pub fn decided(&self, now_s: f64, decision: &Decision, goal: Option<Pose>, edge_m: f64) {
+    pub(super) fn decided(&self, now_s: f64, decision: &Decision, goal: Option<Pose>, edge_m: f64) {
         let Inner { file, begin, inputs, seq, .. } = &mut *self.inner.borrow_mut();
         *seq = seq.wrapping_add(1);
         let frame =
@@ -78,7 +83,7 @@ impl OutBag {
     }
 
     /// Writes the map that is made here.
-    pub fn mapped(&self, now_s: f64, mapping: &ScanMapping, grid: &OccupancyGrid) {
+    pub(super) fn mapped(&self, now_s: f64, mapping: &ScanMapping, grid: &OccupancyGrid) {
         let (Some((map, tf)), Inner { file, begin, inputs, seq, .. }) = (self.made, &mut *self.inner.borrow_mut())
         else {
             return;
@@ -94,7 +99,7 @@ impl OutBag {
     }
 
     /// Closes it.
-    pub fn finish(&self) -> anyhow::Result<()> {
+    pub(super) fn finish(&self) -> Result<(), RecordError> {
         self.inner.borrow_mut().file.finish()
     }
 }

@@ -2,7 +2,7 @@
 //! doing. One goal is under way at a time, as in a SimpleActionServer; a new one takes
 //! its place. Pure; times are seconds of real time.
 
-use super::super::msg::actionlib_msgs::{GoalID, GoalStatus};
+use crate::ros::msg::actionlib_msgs::{GoalID, GoalStatus};
 
 /// A goal that has ended stays in the list for this long, seconds, as in actionlib.
 const KEEP_S: f64 = 5.0;
