@@ -3,7 +3,11 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::collections::BTreeMap;
+#[path = "architecture/circles.rs"]
+mod circles;
+
+use circles::circles;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Each room with the rooms that it may use.
@@ -211,6 +215,39 @@ fn what_belongs_to_one_place_appears_there_alone() {
 #[test]
 fn the_pipeline_reads_no_clock_and_draws_no_random_number() {
     assert_eq!(impurities(&sources()), Vec::<String>::new());
+}
+
+#[test]
+fn no_two_files_need_each_other() {
+    assert_eq!(circles(&sources()), BTreeSet::new());
+}
+
+#[test]
+fn a_circle_is_found_however_it_is_closed() {
+    let check = |files: &[(&str, &str)], expected: &[&str]| {
+        let sources: Vec<Source> = files.iter().map(|(path, text)| Source::new(Path::new(path), text)).collect();
+        let found: Vec<String> = circles(&sources).into_iter().flatten().collect();
+        assert_eq!(found, expected, "{files:?}");
+    };
+    let room = ("sim/mod.rs", "pub use plant::Plant;\npub use world::{\n    World as Place,\n};");
+    let world = ("sim/world.rs", "pub struct World;");
+    // By the room's re-exports, by a path in the code, by an imported module, from outside.
+    for line in ["use super::Place;", "fn f() { super::world::g() }", "use super::world;\nfn f() { world::g() }"] {
+        check(&[room, world, ("sim/plant.rs", line)], &[]);
+        let back = ("sim/world.rs", "use crate::sim::{\n    Plant,\n};");
+        check(&[room, back, ("sim/plant.rs", line)], &["sim/plant.rs", "sim/world.rs"]);
+    }
+    let by_way_of = ("sim/world.rs", "use crate::grid::Grid;");
+    let grid = ("grid.rs", "use crate::sim::Plant;");
+    let all = ["grid.rs", "sim/plant.rs", "sim/world.rs"];
+    check(&[room, by_way_of, grid, ("sim/plant.rs", "use super::Place;")], &all);
+    // A parent and its child: the child may implement what the parent has, and not else.
+    let parent = ("plan.rs", "mod way;\nuse way::Way;\ntrait Planner {}\nstruct Ask;");
+    check(&[parent, ("plan/way.rs", "use super::Planner;\nimpl<T> Planner for Way<T> {}")], &[]);
+    check(&[parent, ("plan/way.rs", "use super::Ask;\nimpl From<Ask> for Way {}")], &["plan/way.rs", "plan.rs"]);
+    // A program's own modules.
+    let (main, args) = (("bin/x/main.rs", "use args::Args;\nfn f() {}"), ("bin/x/args.rs", "use crate::f;"));
+    check(&[main, args], &["bin/x/args.rs", "bin/x/main.rs"]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Planes of one bit a cell and what is connected in them (floor 0): work on 64 cells at once,
 //! shared by detectors and planners.
 
+mod bit_work;
 mod classify;
 pub(crate) mod connectivity;
 pub(crate) mod contacts;
@@ -17,8 +18,9 @@ pub(crate) mod union_find;
 pub(crate) mod window;
 pub(crate) mod word_spans;
 
+pub(crate) use bit_work::BitWork;
 pub use classify::Classifier;
 pub use plane::{BitPlane, WORD_CELLS};
-pub(crate) use plane::{BitWork, with_bit_instructions, words_of};
+pub(crate) use plane::{with_bit_instructions, words_of};
 pub use planes::BitPlanes;
 pub(crate) use prefetch::prefetch;

@@ -1,20 +1,11 @@
 //! A plane of one bit for each cell of a grid, in words of 64 cells.
 
+use super::BitWork;
 use crate::grid::{Cell, CellRect, GridInfo};
 use std::ops::Range;
 
 /// Cells in a word.
 pub const WORD_CELLS: usize = 64;
-
-/// Work on many bits: see [`with_bit_instructions`].
-pub trait BitWork {
-    /// What comes out of it.
-    type Output;
-
-    /// Does the work. To be compiled for better processors it must be inlined: mark it,
-    /// and all that it calls, `#[inline(always)]`.
-    fn run(self) -> Self::Output;
-}
 
 /// Does work on bits with all the instructions for it that the processor has.
 #[inline]

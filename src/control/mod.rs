@@ -1,5 +1,6 @@
 //! From a path to velocity commands (floor 1): one file for each controller.
 
+mod controller;
 mod dwa;
 mod dwa_config;
 mod guard;
@@ -8,6 +9,7 @@ mod path_follower;
 mod path_progress;
 mod surroundings;
 
+pub use controller::{ControlError, ControlInput, Controller};
 pub use dwa::Dwa;
 pub use dwa_config::{DwaConfig, DwaWeights};
 pub use guard::StopGuard;
@@ -15,54 +17,9 @@ pub use outline::Outline;
 pub use path_follower::{FollowerConfig, PathFollower};
 pub use surroundings::Surroundings;
 
-use crate::geometry::{Body, Path, Pose, Twist};
-use crate::grid::Costmap;
+use crate::geometry::Body;
 use crate::range::OutOfRange;
-use crate::scan::LaserScan;
 use serde::{Deserialize, Serialize};
-
-/// What a controller may look at.
-#[derive(Clone, Copy, Debug)]
-pub struct ControlInput<'a> {
-    /// Where the base frame is.
-    pub pose_in_map: Pose,
-    /// How it moves now.
-    pub twist: Twist,
-    /// Where it shall go.
-    pub path: &'a Path,
-    /// What stands around, as known.
-    pub costmap: &'a Costmap,
-    /// The newest scan with the lidar's pose in the map frame.
-    pub scan: Option<(&'a Pose, &'a LaserScan)>,
-    /// Seconds until the next command.
-    pub dt_s: f64,
-}
-
-/// Why no command can be given.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ControlError {
-    /// Every motion along the path would end in an obstacle.
-    #[error("no motion along the path is free of obstacles")]
-    Blocked,
-    /// The path has no poses.
-    #[error("the path is empty")]
-    EmptyPath,
-}
-
-/// Follows paths.
-pub trait Controller: Send {
-    /// The controller's name in configuration files.
-    fn name(&self) -> &'static str;
-
-    /// Forgets the progress along the last path: a new one begins.
-    fn reset(&mut self);
-
-    /// The command until the next call.
-    ///
-    /// # Errors
-    /// [`ControlError`] when the robot should stand still.
-    fn control(&mut self, input: &ControlInput<'_>) -> Result<Twist, ControlError>;
-}
 
 /// The controllers with their parameters, by name.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

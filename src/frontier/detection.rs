@@ -1,11 +1,11 @@
 //! What a detector looks at and what it finds.
 
-use super::Cells;
-use super::papers::image;
+use super::{Cells, FrontierCells};
 use crate::geometry::{Circle, Point, Pose};
 use crate::grid::{Cell, Changes, Costmap, GridInfo, OccupancyGrid};
 use crate::scan::LaserScan;
 use serde::Serialize;
+use std::sync::Arc;
 
 /// On which side of the boundary the cells of a frontier lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -34,6 +34,13 @@ pub struct Frontier {
 }
 
 impl Frontier {
+    /// Frontiers of unknown cells, which share the lists that hold their cells.
+    #[must_use]
+    pub fn all_of(lists: &Arc<FrontierCells>) -> Vec<Self> {
+        let frontier = |(id, i)| Self { id, cells: Cells::of(lists, i), side: CellSide::Unknown, circle: None };
+        (0..).zip(0..lists.len()).map(frontier).collect()
+    }
+
     /// The frontier's size as explore_lite measures it: number of cells times the
     /// resolution, metres.
     #[must_use]
@@ -44,7 +51,7 @@ impl Frontier {
     /// The circle of the detector, or the smallest around the cells' centres.
     #[must_use]
     pub fn enclosing_circle(&self, info: &GridInfo) -> Option<Circle> {
-        self.circle.or_else(|| image::enclosing_circle(info, &self.cells))
+        self.circle.or_else(|| enclosing_circle(info, &self.cells))
     }
 
     /// The mean of the cells' centres in the map frame.
@@ -54,6 +61,16 @@ impl Frontier {
         let count = self.cells.len().max(1) as f64;
         info.from_grid_units(x / count + 0.5, y / count + 0.5)
     }
+}
+
+/// The minimum enclosing circle of the cells' centres, in the map frame.
+fn enclosing_circle(info: &GridInfo, cells: &[Cell]) -> Option<Circle> {
+    let mut sorted = cells.to_vec();
+    sorted.sort_unstable_by_key(|cell| (cell.y, cell.x));
+    // Only the ends of each row can be on the rim.
+    let ends = sorted.chunk_by(|a, b| a.y == b.y).flat_map(|row| row.first().into_iter().chain(row.last()));
+    let points: Vec<Point> = ends.map(|&cell| info.center(cell)).collect();
+    Circle::enclosing(&points)
 }
 
 /// What a detector looks at.

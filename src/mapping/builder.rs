@@ -34,6 +34,15 @@ impl Default for BuilderConfig {
     }
 }
 
+impl BuilderConfig {
+    /// The default with cells of an edge length in metres.
+    #[must_use]
+    pub fn with_resolution(resolution_m: f64) -> Self {
+        let default = Self::default();
+        Self { mapper: MapperConfig { resolution_m, ..default.mapper }, ..default }
+    }
+}
+
 /// A map under way.
 #[derive(Debug)]
 pub struct MapBuilder {

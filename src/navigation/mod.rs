@@ -6,72 +6,24 @@
 //! [`NavigationInput`].
 
 mod back_off;
+mod config;
 mod drive;
 mod feeler;
+mod input;
 mod turn;
 
+pub use config::NavigatorConfig;
+pub use input::NavigationInput;
+
 use crate::control::Controller;
-use crate::geometry::{Body, Pose, Twist};
+use crate::geometry::{Body, Twist};
 use crate::grid::Costmap;
 use crate::planning::{Driven, GlobalPlanner, Path};
 use crate::robot::{Command, CommandId, Navigation, NavigationState};
-use crate::scan::LaserScan;
 use back_off::BackOff;
 use drive::Drive;
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use turn::Turn;
-
-/// Tolerances and patience, in the terms of move_base and its local planners.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct NavigatorConfig {
-    /// Seconds between commands.
-    pub control_period_s: f64,
-    /// A goal is reached within this distance, metres.
-    pub xy_goal_tolerance_m: f64,
-    /// And within this heading error, radians.
-    pub yaw_goal_tolerance_rad: f64,
-    /// A path that is still free is planned anew after this time, seconds.
-    pub replan_period_s: f64,
-    /// A goal without a path is aborted after this time, seconds.
-    pub planner_patience_s: f64,
-    /// A goal whose path cannot be followed is aborted after this time, seconds.
-    pub controller_patience_s: f64,
-    /// Speed of turns on the spot, radians per second.
-    pub turn_speed_rps: f64,
-}
-
-impl Default for NavigatorConfig {
-    fn default() -> Self {
-        Self {
-            control_period_s: 0.1,
-            xy_goal_tolerance_m: 0.15,
-            yaw_goal_tolerance_rad: 0.3,
-            replan_period_s: 2.0,
-            planner_patience_s: 2.0,
-            controller_patience_s: 5.0,
-            turn_speed_rps: 1.0,
-        }
-    }
-}
-
-/// What the navigator sees at one control tick.
-#[derive(Clone, Copy, Debug)]
-pub struct NavigationInput<'a> {
-    /// Now, seconds.
-    pub stamp_s: f64,
-    /// Where the base frame is.
-    pub pose_in_map: Pose,
-    /// How it moves.
-    pub twist: Twist,
-    /// The newest costmap.
-    pub costmap: &'a Arc<Costmap>,
-    /// When the costmap was made, seconds: another stamp is another costmap.
-    pub costmap_stamp_s: f64,
-    /// The newest scan with the lidar's pose in the map frame.
-    pub scan: Option<(&'a Pose, &'a LaserScan)>,
-}
 
 /// What is being done.
 #[derive(Debug)]

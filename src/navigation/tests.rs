@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::control::{FollowerConfig, PathFollower};
-use crate::geometry::{Body, Footprint, MotionLimits, shortest_angle};
+use crate::geometry::{Body, Footprint, MotionLimits, Pose, shortest_angle};
 use crate::grid::{Cell, GridInfo};
 use crate::planning::{Astar, PlanError};
 

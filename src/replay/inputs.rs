@@ -2,7 +2,6 @@
 //! as their types and names tell.
 
 use super::guess::{base_frame, best, frames, is_connected, map_frame, map_rank, odom_frame, odometry_root, root};
-use super::verdict::Verdict;
 use crate::bag::{MessageType, Summary};
 use crate::tf::frame_name;
 use serde::Serialize;
@@ -115,12 +114,6 @@ impl Inputs {
         (self.map_topic, self.updates_topic) = (None, None);
         self.map_frame.clone_from(&self.odom_frame);
     }
-
-    /// What can be done with them.
-    #[must_use]
-    pub fn verdict(&self, summary: &Summary) -> Verdict {
-        Verdict::of(summary, self)
-    }
 }
 
 fn known(frames: &BTreeSet<&str>, frame: &str) -> Result<String, InputError> {
@@ -154,6 +147,7 @@ fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
 mod tests {
     use super::*;
     use crate::bag::{FrameLink, TopicSummary};
+    use crate::replay::Verdict;
 
     fn summary() -> Summary {
         let topic = |topic: &str, kind: MessageType, messages: u64, frame: &str| TopicSummary {
@@ -204,7 +198,7 @@ mod tests {
             odom_frame: Some("odom".into()),
         };
         assert_eq!(inputs, expected);
-        assert!(inputs.verdict(&summary()).sentences()[0].starts_with("frontier replay: yes"));
+        assert!(Verdict::of(&summary(), &inputs).sentences()[0].starts_with("frontier replay: yes"));
     }
 
     #[test]
@@ -223,6 +217,6 @@ mod tests {
         scans.topics.retain(|t| t.topic.ends_with("scan"));
         let inputs = Inputs::of(&scans, &Wanted::default()).unwrap();
         assert_eq!((inputs.map_frame.as_deref(), inputs.map_topic.is_none()), (Some("odom"), true));
-        assert!(inputs.verdict(&scans).sentences()[1].starts_with("frontier map build: yes"));
+        assert!(Verdict::of(&scans, &inputs).sentences()[1].starts_with("frontier map build: yes"));
     }
 }

@@ -18,7 +18,8 @@ pub struct Verdict {
 
 impl Verdict {
     /// Checks a bag for what the inputs need.
-    pub(super) fn of(summary: &Summary, inputs: &Inputs) -> Self {
+    #[must_use]
+    pub fn of(summary: &Summary, inputs: &Inputs) -> Self {
         let map_build = scans(summary, inputs);
         let replay = match &inputs.map_topic {
             Some(map) => with_map(summary, inputs, map).map_err(|missing| match &map_build {

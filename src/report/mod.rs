@@ -73,9 +73,11 @@ pub enum ReportError {
     #[error("not a run.json: {0}")]
     Json(#[from] serde_json::Error),
     /// A file of another time.
-    #[error("run.json has schema version {found}: must be {SCHEMA_VERSION}")]
+    #[error("run.json has schema version {found}: must be {expected}")]
     SchemaVersion {
         /// The version that the file names.
         found: u32,
+        /// The one that can be read.
+        expected: u32,
     },
 }

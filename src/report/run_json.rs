@@ -166,7 +166,7 @@ impl<D: DeserializeOwned> RunRecord<D> {
         }
         let Version { schema_version } = serde_json::from_slice(bytes)?;
         if schema_version != SCHEMA_VERSION {
-            return Err(ReportError::SchemaVersion { found: schema_version });
+            return Err(ReportError::SchemaVersion { found: schema_version, expected: SCHEMA_VERSION });
         }
         Ok(serde_json::from_slice(bytes)?)
     }

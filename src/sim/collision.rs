@@ -4,7 +4,7 @@
 //! cell, a polygon by its inscribed disc and by the cells under its outline. A path
 //! over the costmap of a true map so never leads into a collision.
 
-use super::World;
+use super::{World, WorldError};
 use crate::geometry::{Footprint, Point, Pose};
 
 /// A footprint prepared for many checks.
@@ -35,6 +35,28 @@ impl CollisionShape {
     #[must_use]
     pub const fn circumscribed_radius_m(&self) -> f64 {
         self.circumscribed_m
+    }
+
+    /// Checks that a robot can start at a pose.
+    ///
+    /// # Errors
+    /// [`WorldError`] that says how much room there is and how much is needed.
+    pub fn check_start(&self, world: &World, start: &Pose) -> Result<(), WorldError> {
+        let Pose { x, y, yaw } = *start;
+        if !start.is_finite() {
+            return Err(WorldError::StartNotFinite { x, y, yaw });
+        }
+        if !world.info().contains(world.info().cell_at(start.position())) {
+            return Err(WorldError::StartOutside { x, y });
+        }
+        let clearance_m = world.clearance_m(start.position());
+        if clearance_m <= self.inscribed_m {
+            return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: self.inscribed_m });
+        }
+        if !self.fits(world, start) {
+            return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: self.circumscribed_m });
+        }
+        Ok(())
     }
 
     /// Whether the body touches nothing solid at a pose.
@@ -81,5 +103,30 @@ mod tests {
         assert!(body.fits(&w, &Pose::new(3.5, 1.5, 0.0)));
         assert!(!body.fits(&w, &Pose::new(3.5, 1.5, 1.2)));
         assert!(!body.fits(&w, &Pose::new(5.5, 1.5, 0.0)));
+    }
+
+    #[test]
+    fn a_bad_start_says_what_it_has_and_needs() {
+        let w = world(".....\n.....\n.....\n.....\n.....");
+        let disc = CollisionShape::new(&Footprint::RadiusM(1.5), 1.0);
+        assert_eq!(disc.check_start(&w, &Pose::new(2.5, 2.5, 0.0)), Ok(()));
+        let error = disc.check_start(&w, &Pose::new(0.5, 2.5, 0.0)).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the start (0.50, 2.50) m has 1.000 m to the nearest solid cell: the robot needs more than 1.500 m"
+        );
+        let outside = disc.check_start(&w, &Pose::new(-0.5, 2.5, 0.0));
+        assert_eq!(outside, Err(WorldError::StartOutside { x: -0.5, y: 2.5 }));
+        assert!(disc.check_start(&w, &Pose::new(f64::NAN, 2.5, 0.0)).is_err());
+    }
+
+    #[test]
+    fn a_long_robot_must_fit_with_its_heading() {
+        let w = world(".......\n.......\n.......");
+        let long =
+            CollisionShape::new(&Footprint::PolygonM(vec![[-2.5, -0.5], [2.5, -0.5], [2.5, 0.5], [-2.5, 0.5]]), 1.0);
+        assert_eq!(long.check_start(&w, &Pose::new(3.5, 1.5, 0.0)), Ok(()));
+        let across = long.check_start(&w, &Pose::new(3.5, 1.5, 1.5));
+        assert!(matches!(across, Err(WorldError::StartBlocked { needed_m, .. }) if needed_m > 2.5));
     }
 }

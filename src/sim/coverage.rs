@@ -7,7 +7,7 @@
 //! knows. Cells that are merely near to such a place through a wall, or on the other
 //! side of a wall that has a crack somewhere, are no target: no sensor gets to see them.
 
-use super::{World, WorldError};
+use super::{CollisionShape, World, WorldError};
 use crate::geometry::{Footprint, Point, Pose};
 use crate::grid::{Cell, GridInfo, NEIGHBOURS_8, Neighbourhood, OccupancyGrid};
 
@@ -28,7 +28,7 @@ impl TargetArea {
     /// # Errors
     /// [`WorldError`] when it cannot start there.
     pub fn new(world: &World, footprint: &Footprint, start: &Pose) -> Result<Self, WorldError> {
-        world.check_start(start, footprint)?;
+        CollisionShape::new(footprint, world.info().resolution_m()).check_start(world, start)?;
         let info = *world.info();
         let radius_m = footprint.passage_radius_m();
         let standable = connected(&info, start.position(), |cell| world.disc_fits(cell, radius_m));

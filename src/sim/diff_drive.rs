@@ -30,7 +30,7 @@ pub struct DiffDrive {
 }
 
 impl DiffDrive {
-    /// A body that stands still at a pose where it fits ([`World::check_start`]).
+    /// A body that stands still at a pose where it fits ([`CollisionShape::check_start`]).
     #[must_use]
     pub fn new(world: &World, footprint: &Footprint, limits: MotionLimits, start: Pose, odometry: Odometry) -> Self {
         Self {

@@ -1,46 +1,13 @@
 //! Who drives the simulated robot to its goals.
 
 use super::move_base::{MoveBase, MoveBaseInput};
-use super::{MoveBaseConfig, Plant, SlamKind};
+use super::{DriverKind, MoveBaseConfig, Plant};
 use crate::config::RobotConfig;
 use crate::geometry::{Path, Pose, Twist};
 use crate::grid::Costmap;
 use crate::navigation::{NavigationInput, Navigator};
 use crate::robot::{Command, CommandId, Navigation};
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
-
-/// Which of the two drives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum DriverKind {
-    /// Our own navigator, which knows no refusal but where there is no way: kind.
-    #[default]
-    Navigator,
-    /// A stand-in for move_base that fails as the real one does.
-    MoveBase,
-}
-
-impl DriverKind {
-    /// Who drives where only the SLAM is chosen: a SLAM that errs goes with a move_base that
-    /// fails.
-    #[must_use]
-    pub const fn beside(slam: SlamKind) -> Self {
-        match slam {
-            SlamKind::Perfect => Self::Navigator,
-            SlamKind::Matched => Self::MoveBase,
-        }
-    }
-
-    /// Its name in settings.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Navigator => "navigator",
-            Self::MoveBase => "move_base",
-        }
-    }
-}
 
 /// Drives to goals.
 pub enum Driver {

@@ -13,11 +13,12 @@
 
 mod publish;
 
+use super::MapperConfig;
 use super::map_window::MapWindow;
 use super::ray::{Ray, Walk};
-use super::{MapperConfig, SimConfigError};
 use crate::geometry::{Point, Pose};
 use crate::grid::{CellRect, GridInfoError, Live, OccupancyGrid};
+use crate::range::OutOfRange;
 use crate::scan::{LaserScan, Reading};
 
 /// Why a scan cannot be put into the map.
@@ -25,7 +26,7 @@ use crate::scan::{LaserScan, Reading};
 pub enum MapperError {
     /// A parameter out of its range.
     #[error(transparent)]
-    Config(#[from] SimConfigError),
+    Config(#[from] OutOfRange),
     /// The map would become too large.
     #[error("the map cannot grow: {0}")]
     TooLarge(#[from] GridInfoError),

@@ -3,6 +3,8 @@
 //! Time is counted in whole microseconds: a sum of periods in floating point would
 //! drift, and with it the order of things that fall together.
 
+use crate::range::OutOfRange;
+
 /// Microseconds of simulated time.
 pub(crate) type Micros = u64;
 
@@ -42,6 +44,11 @@ impl Periodic {
         }
         due
     }
+}
+
+/// Checks a period in seconds: simulated time is counted in whole microseconds.
+pub(super) fn period(key: &'static str, value: f64) -> Result<(), OutOfRange> {
+    OutOfRange::unless((1e-3..=3600.0).contains(&value), key, value, "between 0.001 and 3600")
 }
 
 #[cfg(test)]

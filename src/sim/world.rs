@@ -7,7 +7,7 @@
 //! which makes ray casting fast and leaves it exact.
 
 use super::ray::Ray;
-use crate::geometry::{Footprint, Point, Pose};
+use crate::geometry::{Point, Pose};
 use crate::grid::{Cell, CellState, GridInfo, GridInfoError, OccupancyGrid, Thresholds, squared_distance_cells};
 
 /// Why a map cannot be lived in, or not from this start.
@@ -151,29 +151,6 @@ impl World {
         let most_open = cells.max_by_key(|&cell| (self.clearance_squared_cells(cell), -cell.y, -cell.x));
         let center = self.info.center(most_open.unwrap_or(Cell::new(0, 0)));
         Pose::new(center.x, center.y, 0.0)
-    }
-
-    /// Checks that a robot can start at a pose.
-    ///
-    /// # Errors
-    /// [`WorldError`] that says how much room there is and how much is needed.
-    pub fn check_start(&self, start: &Pose, footprint: &Footprint) -> Result<(), WorldError> {
-        let Pose { x, y, yaw } = *start;
-        if !start.is_finite() {
-            return Err(WorldError::StartNotFinite { x, y, yaw });
-        }
-        if !self.info.contains(self.info.cell_at(start.position())) {
-            return Err(WorldError::StartOutside { x, y });
-        }
-        let clearance_m = self.clearance_m(start.position());
-        let inscribed_m = footprint.inscribed_radius_m();
-        if clearance_m <= inscribed_m {
-            return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: inscribed_m });
-        }
-        if !super::CollisionShape::new(footprint, self.info.resolution_m()).fits(self, start) {
-            return Err(WorldError::StartBlocked { x, y, clearance_m, needed_m: footprint.circumscribed_radius_m() });
-        }
-        Ok(())
     }
 
     /// Distance in metres along a heading at which a ray enters the first solid cell,

@@ -24,30 +24,6 @@ fn a_world_without_room_is_refused() {
 }
 
 #[test]
-fn a_bad_start_says_what_it_has_and_needs() {
-    let w = world(".....\n.....\n.....\n.....\n.....");
-    let disc = Footprint::RadiusM(1.5);
-    assert_eq!(w.check_start(&Pose::new(2.5, 2.5, 0.0), &disc), Ok(()));
-    let error = w.check_start(&Pose::new(0.5, 2.5, 0.0), &disc).unwrap_err();
-    assert_eq!(
-        error.to_string(),
-        "the start (0.50, 2.50) m has 1.000 m to the nearest solid cell: the robot needs more than 1.500 m"
-    );
-    let outside = w.check_start(&Pose::new(-0.5, 2.5, 0.0), &disc);
-    assert_eq!(outside, Err(WorldError::StartOutside { x: -0.5, y: 2.5 }));
-    assert!(w.check_start(&Pose::new(f64::NAN, 2.5, 0.0), &disc).is_err());
-}
-
-#[test]
-fn a_long_robot_must_fit_with_its_heading() {
-    let w = world(".......\n.......\n.......");
-    let long = Footprint::PolygonM(vec![[-2.5, -0.5], [2.5, -0.5], [2.5, 0.5], [-2.5, 0.5]]);
-    assert_eq!(w.check_start(&Pose::new(3.5, 1.5, 0.0), &long), Ok(()));
-    let across = w.check_start(&Pose::new(3.5, 1.5, 1.5), &long);
-    assert!(matches!(across, Err(WorldError::StartBlocked { needed_m, .. }) if needed_m > 2.5));
-}
-
-#[test]
 fn a_ray_along_a_border_ends() {
     let info = GridInfo::new(80, 60, 0.1, Pose::new(-3.13, 2.71, 0.0)).unwrap();
     let w = World::new(&OccupancyGrid::filled(info, 0), &Thresholds::default()).unwrap();

@@ -1,6 +1,7 @@
 //! `frontier`: exploration of maps, worlds and bags without a ROS installation.
 
 mod args;
+mod bags;
 mod commands;
 mod exit;
 mod inputs;

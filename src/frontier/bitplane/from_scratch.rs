@@ -16,8 +16,8 @@ use super::lazy_fill::LazyFill;
 use crate::bits::connectivity::Connectivity;
 use crate::bits::neighbours::neighbours_of_row;
 use crate::bits::{BitPlane, BitPlanes, BitWork, with_bit_instructions};
-use crate::frontier::grouping::bands::Clusters;
 use crate::frontier::grouping::cell_lists::FrontierCells;
+use crate::frontier::grouping::clusters::Clusters;
 use crate::frontier::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability};
 use crate::grid::{Cell, Neighbourhood};
 use std::sync::Arc;
@@ -166,7 +166,7 @@ impl FrontierDetector for FromScratch {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        Ok(FrontierCells::share(self.detect_shared(input)?))
+        Ok(Frontier::all_of(self.detect_shared(input)?))
     }
 }
 

@@ -77,7 +77,7 @@ impl FrontierDetector for Bitplane {
     }
 
     fn detect(&mut self, input: &DetectionInput<'_>) -> Result<Vec<Frontier>, DetectError> {
-        Ok(FrontierCells::share(self.detect_shared(input)?))
+        Ok(Frontier::all_of(self.detect_shared(input)?))
     }
 
     fn forget(&mut self) {

@@ -1,10 +1,11 @@
 //! A sequence of updates against a detection from scratch at each step.
 
 use super::*;
-use crate::frontier::{FromScratch, FrontierDetector};
+use crate::frontier::{FromScratch, Frontier, FrontierDetector};
 use crate::geometry::Pose;
 use crate::grid::OccupancyGrid;
 use proptest::prelude::*;
+use std::sync::Arc;
 
 /// One step: what is done to the map, and where the robot is then.
 #[derive(Clone, Debug)]
@@ -123,7 +124,7 @@ proptest! {
             let input = DetectionInput::new(&grid, Pose::new(at.x, at.y, 0.0));
             let told = if tell { rect } else { None };
             let expected = FromScratch::new(params).detect(&input);
-            let found = kept.update(&input, told).map(FrontierCells::to_frontiers);
+            let found = kept.update(&input, told).map(|lists| Frontier::all_of(&Arc::new(lists.clone())));
             prop_assert_eq!(found, expected, "after {:?} told {:?}", change, told);
         }
     }
@@ -145,6 +146,6 @@ fn what_changed_while_there_was_no_answer_is_not_forgotten() {
     assert!(kept.update(&DetectionInput::new(&grid, at(-15.0)), rect).is_err());
     let nothing = Some(CellRect { x: 0, y: 0, width: 0, height: 0 });
     let input = DetectionInput::new(&grid, at(15.0));
-    let found = kept.update(&input, nothing).unwrap().to_frontiers();
+    let found = Frontier::all_of(&Arc::new(kept.update(&input, nothing).unwrap().clone()));
     assert_eq!(Ok(found), FromScratch::new(params).detect(&input));
 }

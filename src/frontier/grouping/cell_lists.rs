@@ -2,10 +2,9 @@
 
 mod splice;
 
-use crate::frontier::grouping::shared_cells::Cells;
-use crate::frontier::{CellSide, Frontier};
 use crate::grid::Cell;
 pub(crate) use splice::Splice;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// The cells of frontiers, one after the other in one list: what a detector finds,
@@ -89,9 +88,14 @@ impl FrontierCells {
         if index > 0 { self.ends[index - 1] as usize } else { 0 }
     }
 
+    /// Where the cells of a frontier are among all.
+    pub(crate) fn range(&self, index: usize) -> Range<usize> {
+        self.start(index)..self.ends[index] as usize
+    }
+
     /// The cells of a frontier.
     pub(crate) fn frontier(&self, index: usize) -> &[Cell] {
-        &self.cells[self.start(index)..self.ends[index] as usize]
+        &self.cells[self.range(index)]
     }
 
     /// A list for what is known of each frontier while their cells are put in place; it takes
@@ -135,20 +139,5 @@ impl FrontierCells {
             *shared = Arc::new(with_room);
         }
         Arc::make_mut(shared)
-    }
-
-    /// Frontiers of unknown cells.
-    #[must_use]
-    pub fn to_frontiers(&self) -> Vec<Frontier> {
-        Self::share(&Arc::new(self.clone()))
-    }
-
-    /// Frontiers of unknown cells, which share these lists.
-    pub(crate) fn share(shared: &Arc<Self>) -> Vec<Frontier> {
-        let frontier = |(id, i): (u64, usize)| {
-            let cells = Cells::part_of(shared, shared.start(i)..shared.ends[i] as usize);
-            Frontier { id, cells, side: CellSide::Unknown, circle: None }
-        };
-        (0..).zip(0..shared.len()).map(frontier).collect()
     }
 }

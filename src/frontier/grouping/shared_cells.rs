@@ -15,9 +15,9 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Part of a list; none of it where the range leaves it.
-    pub(crate) fn part_of(list: &Arc<FrontierCells>, range: Range<usize>) -> Self {
-        Self { list: Arc::clone(list), range }
+    /// The cells of one frontier of a list.
+    pub(crate) fn of(list: &Arc<FrontierCells>, frontier: usize) -> Self {
+        Self { list: Arc::clone(list), range: list.range(frontier) }
     }
 }
 

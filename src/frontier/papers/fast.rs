@@ -33,6 +33,9 @@
 //! flood of the free cells at each call; the state is the same for both.
 
 mod contour;
+mod params;
+
+pub use params::FastParams;
 
 use crate::frontier::papers::states::{OPEN, Plane, group, set_cells};
 use crate::frontier::{
@@ -40,21 +43,6 @@ use crate::frontier::{
 };
 use crate::grid::{Cell, CellState, GridInfo, NEIGHBOURS_8, OccupancyGrid};
 use contour::contour;
-use serde::{Deserialize, Serialize};
-
-/// Parameters of the fast detector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FastParams {
-    /// Whether cells that changed since the last call are examined besides the contour.
-    pub changed_cells: bool,
-}
-
-impl Default for FastParams {
-    fn default() -> Self {
-        Self { changed_cells: true }
-    }
-}
 
 /// The detector, with what it knows from its last call.
 #[derive(Clone, Debug)]

@@ -26,41 +26,6 @@ use crate::frontier::papers::territory::{Territory, components, with_neighbours}
 use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, order};
 use crate::geometry::{Circle, Point};
 use crate::grid::{Cell, GridInfo, Neighbourhood};
-use crate::range::OutOfRange;
-use serde::{Deserialize, Serialize};
-
-/// Half of B in cells, where the resolution would ask for more: what a byte counts.
-const MAX_HALF_CELLS: f64 = 254.0;
-
-/// Parameters of the image processing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct ImageParams {
-    /// Side of the square structuring element B, metres.
-    pub element_m: f64,
-}
-
-impl Default for ImageParams {
-    fn default() -> Self {
-        Self { element_m: 0.3 }
-    }
-}
-
-impl ImageParams {
-    /// Checks the numbers.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        let side = self.element_m;
-        OutOfRange::unless((0.0..=5.0).contains(&side), "detector.image.element_m", side, "within 0 to 5 m")
-    }
-
-    /// How far B reaches to each side of its centre, cells.
-    fn half_cells(&self, info: &GridInfo) -> u8 {
-        info.cells(0.5 * self.element_m).round().clamp(0.0, MAX_HALF_CELLS) as u8
-    }
-}
 
 /// The detector.
 #[derive(Clone, Debug)]
@@ -149,16 +114,9 @@ fn circle_of_runs(info: &GridInfo, runs: &[(usize, Run)]) -> Option<Circle> {
     Circle::enclosing(&points)
 }
 
-/// The minimum enclosing circle of the cells' centres, in the map frame.
-pub(crate) fn enclosing_circle(info: &GridInfo, cells: &[Cell]) -> Option<Circle> {
-    let mut sorted = cells.to_vec();
-    sorted.sort_unstable_by_key(|cell| (cell.y, cell.x));
-    // Only the ends of each row can be on the rim.
-    let ends = sorted.chunk_by(|a, b| a.y == b.y).flat_map(|row| row.first().into_iter().chain(row.last()));
-    let points: Vec<Point> = ends.map(|&cell| info.center(cell)).collect();
-    Circle::enclosing(&points)
-}
-
+mod params;
 #[cfg(test)]
 #[path = "image_tests.rs"]
 mod tests;
+
+pub use params::ImageParams;

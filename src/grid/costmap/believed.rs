@@ -1,6 +1,7 @@
 //! The costmap of a map together with one that somebody else publishes of the same ground.
 
-use super::{Costmap, INSCRIBED_COST, LETHAL_COST, NARROW_COST, UNKNOWN_COST, cost_of_published};
+use super::published::cost_of_published;
+use super::{Costmap, INSCRIBED_COST, LETHAL_COST, NARROW_COST, UNKNOWN_COST};
 use crate::grid::{Cell, CellRect, GridInfo, Live, OccupancyGrid, Snapshot};
 use std::sync::Arc;
 

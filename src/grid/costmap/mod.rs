@@ -12,7 +12,6 @@ use std::collections::HashMap;
 pub use believed::BelievedCosts;
 pub use inflation::Inflation;
 pub use live::{LiveCostmap, Roomy};
-use published::cost_of_published;
 
 /// Cost of open space.
 pub const FREE_COST: u8 = 0;

@@ -1,6 +1,6 @@
 //! The worlds of a comparison: their starts and a small picture of each.
 
-use super::rounded;
+use super::rounding::rounded;
 use crate::geometry::{Point, Pose};
 use crate::grid::{OccupancyGrid, Thresholds};
 use crate::report::canvas::Canvas;

@@ -5,6 +5,7 @@ use crate::config::RobotConfig;
 use crate::io::load_world;
 use crate::report::{ComparedWorld, WorldPicture};
 use crate::run::{NamedWorld, PlanError};
+use crate::sim::CollisionShape;
 
 /// A world that runs can share, and what reports say of it.
 pub(super) struct LoadedWorld {
@@ -24,9 +25,10 @@ pub(super) fn load_worlds(
         let (truth, name) = load_world(name_or_file)?;
         let named = NamedWorld::new(name.clone(), &truth)?;
         let starts = starts.of(&named).map_err(|source| CompareError::Starts { world: name.clone(), source })?;
+        let shape = CollisionShape::new(&robot.footprint, named.world.info().resolution_m());
         for start in &starts {
             let wrong = |source| PlanError::World { name: name.clone(), source };
-            named.world.check_start(start, &robot.footprint).map_err(wrong)?;
+            shape.check_start(&named.world, start).map_err(wrong)?;
         }
         let picture = WorldPicture::of(&truth)?;
         Ok(LoadedWorld { named, compared: ComparedWorld { name, starts, picture } })

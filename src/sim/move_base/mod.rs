@@ -26,6 +26,7 @@
 
 mod config;
 mod global_planner;
+mod input;
 mod local_costmap;
 mod local_planner;
 mod recovery;
@@ -33,12 +34,12 @@ mod task;
 
 pub use config::MoveBaseConfig;
 pub use global_planner::{InflatedPlanner, global_planner_cell};
+pub use input::MoveBaseInput;
 
 use crate::config::RobotConfig;
 use crate::geometry::{Body, Footprint, Path, Pose, Twist};
-use crate::grid::{Costmap, Inflation, LiveCostmap, OccupancyGrid, Snapshot, Thresholds};
+use crate::grid::{Costmap, Inflation, LiveCostmap, Thresholds};
 use crate::robot::{CommandId, Navigation, NavigationState};
-use crate::scan::LaserScan;
 use local_planner::LocalPlanner;
 use rand_distr::{Distribution, Uniform};
 use rand_pcg::Pcg32;
@@ -47,32 +48,6 @@ use task::Task;
 
 /// Which sequence of the seed the delays are drawn from.
 const STREAM: u64 = 0x30fe;
-
-/// What the stand-in sees at one control tick.
-#[derive(Clone, Copy, Debug)]
-pub struct MoveBaseInput<'a> {
-    /// Now, seconds.
-    pub stamp_s: f64,
-    /// Until the next tick, seconds.
-    pub dt_s: f64,
-    /// Where the wheels believe the base is.
-    pub pose_in_odom: Pose,
-    /// Where the odometry's frame is believed to lie in the map.
-    pub map_from_odom: Pose,
-    /// How it moves.
-    pub twist: Twist,
-    /// The newest map.
-    pub map: &'a Snapshot<OccupancyGrid>,
-    /// The newest scan with the lidar's pose in the odometry's frame.
-    pub scan: (&'a Pose, &'a LaserScan),
-}
-
-impl MoveBaseInput<'_> {
-    /// Where the base is believed to be in the map.
-    pub(super) fn pose_in_map(&self) -> Pose {
-        self.map_from_odom.compose(&self.pose_in_odom)
-    }
-}
 
 /// What the stand-in plans on, and since when.
 #[derive(Debug)]

@@ -1,7 +1,6 @@
 //! The recovery behaviours: move_base's defaults, in their order.
 
 use super::local_planner::LocalPlanner;
-use super::task::Trigger;
 use crate::geometry::{Pose, Twist, shortest_angle};
 use std::f64::consts::PI;
 
@@ -62,6 +61,17 @@ impl Rotation {
         let speed = (2.0 * ACCELERATION_RPS2 * left).sqrt().clamp(SPEED_RPS.0, SPEED_RPS.1);
         Some(Twist::new(0.0, speed))
     }
+}
+
+/// What led to the last recovery.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trigger {
+    /// No plan.
+    Planning,
+    /// No valid velocity.
+    Controlling,
+    /// No way made.
+    Oscillation,
 }
 
 /// The words of an aborted goal.

@@ -1,6 +1,6 @@
 //! A goal under way: move_base's states, and what leads from one to the next.
 
-use super::recovery::{RECOVERIES, Recovery, Rotation, abort_text};
+use super::recovery::{RECOVERIES, Recovery, Rotation, Trigger, abort_text};
 use super::{InflatedPlanner, LocalPlanner, MoveBaseConfig, MoveBaseInput};
 use crate::geometry::{Path, Pose, Twist, shortest_angle};
 use crate::grid::Costmap;
@@ -17,17 +17,6 @@ enum State {
     Planning,
     Controlling,
     Clearing,
-}
-
-/// What led to the last recovery.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trigger {
-    /// No plan.
-    Planning,
-    /// No valid velocity.
-    Controlling,
-    /// No way made.
-    Oscillation,
 }
 
 /// A goal under way.

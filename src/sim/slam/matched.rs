@@ -20,7 +20,8 @@
 
 use super::super::schedule::{Micros, micros, seconds};
 use super::super::{Mapper, MapperConfig, MapperError, SimConfig};
-use super::{NewMap, SlamConfig, Sweep};
+use super::new_map::NewMap;
+use super::{SlamConfig, Sweep};
 use crate::geometry::{Point, Pose, normalize_angle, shortest_angle};
 use crate::grid::{OccupancyGrid, Snapshot};
 use crate::matching::{LikelihoodField, Prior, match_scan, thinned_hits};
@@ -63,12 +64,6 @@ pub struct MatchedSlam {
     random: Pcg32,
     /// What the wheels believed and when, as far back as the pose is late.
     trail: VecDeque<(Micros, Pose)>,
-}
-
-impl std::fmt::Debug for NewMap {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("NewMap").field("stamp_s", &self.stamp_s).finish_non_exhaustive()
-    }
 }
 
 impl MatchedSlam {

@@ -2,38 +2,20 @@
 
 mod config;
 mod matched;
+mod new_map;
 mod perfect;
+mod sweep;
 
 pub use config::{SlamConfig, SlamKind};
+pub(super) use sweep::Sweep;
 
 use super::schedule::Micros;
 use super::{MapperError, SimConfig};
 use crate::geometry::{Point, Pose};
 use crate::grid::{OccupancyGrid, Snapshot};
-use crate::scan::LaserScan;
 use matched::MatchedSlam;
+use new_map::NewMap;
 use perfect::PerfectSlam;
-use std::sync::Arc;
-
-/// A sweep of the lidar and where it was taken.
-#[derive(Clone, Debug)]
-pub(super) struct Sweep {
-    /// Where the lidar truly was in the world.
-    pub lidar_in_world: Pose,
-    /// Where the wheels believed the robot's base.
-    pub base_in_odom: Pose,
-    /// The ranges.
-    pub scan: Arc<LaserScan>,
-}
-
-/// A map as it is published, and the time in seconds up to which it shows what was sensed.
-pub(super) struct NewMap {
-    pub grid: Snapshot<OccupancyGrid>,
-    pub stamp_s: f64,
-    /// What the scans in it show when they are put where they were truly taken, in the world's
-    /// frame: coverage is counted here. With a perfect SLAM this is the map itself.
-    pub seen: Snapshot<OccupancyGrid>,
-}
 
 /// One of the two kinds.
 #[derive(Debug)]

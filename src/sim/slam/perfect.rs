@@ -4,7 +4,8 @@
 use super::super::motion_filter::MotionFilter;
 use super::super::schedule::{Micros, Periodic, seconds};
 use super::super::{Mapper, MapperConfig, MapperError};
-use super::{NewMap, Sweep};
+use super::Sweep;
+use super::new_map::NewMap;
 use crate::geometry::{Point, Pose};
 use crate::grid::{OccupancyGrid, Snapshot};
 

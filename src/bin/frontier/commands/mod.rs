@@ -10,8 +10,9 @@ pub mod map;
 pub mod replay;
 pub mod shell;
 
-use crate::args::Command;
+use crate::args::{Args, Command};
 use crate::exit::Outcome;
+use clap::CommandFactory;
 
 /// Runs a parsed command.
 pub fn run(command: Command) -> anyhow::Result<Outcome> {
@@ -24,7 +25,7 @@ pub fn run(command: Command) -> anyhow::Result<Outcome> {
         Command::Bag(command) => bag::run(&command),
         Command::Bench(command) => bench::run(&command),
         Command::Map(command) => map::run(&command),
-        Command::Completions(args) => shell::completions(&args),
-        Command::Man(args) => shell::man(&args),
+        Command::Completions(args) => shell::completions(&args, Args::command()),
+        Command::Man(args) => shell::man(&args, Args::command()),
     }
 }

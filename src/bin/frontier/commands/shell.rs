@@ -1,11 +1,9 @@
 //! `frontier completions` and `frontier man`: what a shell and `man` need to know of the
 //! command line.
 
-use crate::args::Args as CommandLine;
 use crate::exit::Outcome;
 use crate::output;
 use anyhow::Context;
-use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 use std::path::PathBuf;
 
@@ -23,19 +21,19 @@ pub struct ManArgs {
     folder: PathBuf,
 }
 
-/// Prints the completions.
-pub fn completions(args: &CompletionsArgs) -> anyhow::Result<Outcome> {
+/// Prints the completions of a command line.
+pub fn completions(args: &CompletionsArgs, mut command_line: clap::Command) -> anyhow::Result<Outcome> {
     let mut script = Vec::new();
-    generate(args.shell, &mut CommandLine::command(), "frontier", &mut script);
+    generate(args.shell, &mut command_line, "frontier", &mut script);
     output::bytes(&script)?;
     Ok(Outcome::Done)
 }
 
 /// Writes a page for the program and each of its commands.
-pub fn man(args: &ManArgs) -> anyhow::Result<Outcome> {
+pub fn man(args: &ManArgs, command_line: clap::Command) -> anyhow::Result<Outcome> {
     let folder = &args.folder;
     anyhow::ensure!(folder.is_dir(), "{} is not a folder: must exist", folder.display());
-    clap_mangen::generate_to(CommandLine::command(), folder)
+    clap_mangen::generate_to(command_line, folder)
         .with_context(|| format!("cannot write pages to {}", folder.display()))?;
     Ok(Outcome::Done)
 }

@@ -1,10 +1,10 @@
 //! `frontier bag info`: what a bag holds, and what can be done with it.
 
 use crate::exit::Outcome;
-use crate::output;
+use crate::{bags, output};
 use comfy_table::{CellAlignment, Table};
 use frontier_explorer::bag::{FrameLink, Summary, TopicSummary, seconds};
-use frontier_explorer::replay::{Clock, Inputs, Wanted};
+use frontier_explorer::replay::{Clock, Inputs, Verdict, Wanted};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -53,7 +53,7 @@ struct Compressed {
 
 /// Runs `frontier bag info`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
-    let summary = super::summary(&args.bag)?;
+    let summary = bags::summary(&args.bag)?;
     let wanted = Wanted { map_topic: args.map_topic.clone(), pose_frame: args.pose_frame.clone(), ..Wanted::default() };
     let inputs = Inputs::of(&summary, &wanted)?;
     if args.json {
@@ -76,7 +76,7 @@ fn info<'a>(summary: &'a Summary, inputs: &'a Inputs) -> Info<'a> {
         topics: &summary.topics,
         tf: &summary.tf,
         inputs,
-        verdict: inputs.verdict(summary).sentences(),
+        verdict: Verdict::of(summary, inputs).sentences(),
         problems: &summary.problems,
         notes: summary.notes.iter().cloned().chain(Clock::of(summary, inputs).notes()).collect(),
     }
@@ -104,7 +104,7 @@ fn print(summary: &Summary, inputs: &Inputs) -> anyhow::Result<()> {
         summary.bytes as f64 / 1e6,
         if kinds.is_empty() { "no chunks".to_owned() } else { kinds.join(", ") },
     ))?;
-    super::warn(summary, inputs)?;
+    bags::warn(summary, inputs)?;
     for topic in &summary.topics {
         if let Some(fault) = &topic.first_fault {
             let (malformed, name) = (topic.malformed, &topic.topic);
@@ -123,7 +123,7 @@ fn print(summary: &Summary, inputs: &Inputs) -> anyhow::Result<()> {
         guess(&inputs.map_frame),
         guess(&inputs.base_frame),
     ))?;
-    for sentence in inputs.verdict(summary).sentences() {
+    for sentence in Verdict::of(summary, inputs).sentences() {
         output::line(format_args!("{sentence}"))?;
     }
     Ok(())

@@ -1,14 +1,13 @@
 //! `frontier map build`: a map from the scans and the odometry of a bag.
 
-use crate::commands::bag;
 use crate::exit::Outcome;
-use crate::{output, values};
+use crate::{bags, output, values};
 use anyhow::{Context, bail};
 use frontier_explorer::geometry::Point;
 use frontier_explorer::grid::Thresholds;
 use frontier_explorer::io::{SaveOptions, save_map, write_atomic};
 use frontier_explorer::mapping::BuilderConfig;
-use frontier_explorer::replay::{Inputs, Player, Wanted};
+use frontier_explorer::replay::{Inputs, Verdict, Wanted};
 use frontier_explorer::report::{Picture, Theme};
 use std::path::PathBuf;
 
@@ -43,13 +42,13 @@ pub struct Args {
 
 /// Runs `frontier map build`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
-    let summary = bag::summary(&args.bag)?;
+    let summary = bags::summary(&args.bag)?;
     let wanted =
         Wanted { scan_topic: args.scan_topic.clone(), pose_frame: args.pose_frame.clone(), ..Wanted::default() };
     let mut inputs = Inputs::of(&summary, &wanted)?;
     inputs.forget_map();
-    bag::warn(&summary, &inputs)?;
-    let verdict = inputs.verdict(&summary).map_build;
+    bags::warn(&summary, &inputs)?;
+    let verdict = Verdict::of(&summary, &inputs).map_build;
     let missing = verdict.err().unwrap_or_default();
     let (Some(scans), Some(odom), Some(base), true) =
         (&inputs.scan_topic, &inputs.odom_frame, &inputs.base_frame, missing.is_empty())
@@ -57,11 +56,12 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         bail!("{}: frontier map build: no, {missing}", args.bag.display());
     };
     output::line(format_args!("scans on {scans}, odometry from {odom} to {base}"))?;
-    let mut config = BuilderConfig { is_matching: !args.odometry_only, ..BuilderConfig::default() };
-    config.mapper.resolution_m = args.resolution;
-    config.max_range_m = args.max_range.unwrap_or(f64::INFINITY);
-    let mut player = Player::new(bag::open(&args.bag)?, &summary, inputs.clone());
-    player.map_scans(config, &summary);
+    let config = BuilderConfig {
+        is_matching: !args.odometry_only,
+        max_range_m: args.max_range.unwrap_or(f64::INFINITY),
+        ..BuilderConfig::with_resolution(args.resolution)
+    };
+    let mut player = bags::player(&args.bag, &summary, &inputs, config)?;
     let mut way: Vec<Point> = Vec::new();
     let (mut now_s, mut last) = (0.0, None);
     while let Some(next_s) = player.next_time_s()? {
@@ -89,7 +89,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     };
     let png = saved.yaml.with_extension("way.png");
     write_atomic(&png, &picture.to_png()?).with_context(|| format!("cannot write {}", png.display()))?;
-    super::tell_scans(&player)?;
+    bags::tell_scans(&player)?;
     for file in [&saved.yaml, &saved.image, &png] {
         output::line(format_args!("  {}", file.display()))?;
     }

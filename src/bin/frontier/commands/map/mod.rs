@@ -8,9 +8,7 @@ mod picture;
 mod save;
 
 use crate::exit::Outcome;
-use crate::output;
 use clap::Subcommand;
-use frontier_explorer::replay::Player;
 
 /// What to do with maps.
 #[derive(Debug, Subcommand)]
@@ -36,18 +34,4 @@ pub fn run(command: &Command) -> anyhow::Result<Outcome> {
         Command::Save(args) => save::run(args),
         Command::Diff(args) => diff::run(args),
     }
-}
-
-/// What became of the scans of a bag.
-pub fn tell_scans(player: &Player) -> anyhow::Result<()> {
-    let Some(mapping) = player.mapping() else { return Ok(()) };
-    let (taken, unmatched) = mapping.taken();
-    let without = mapping.without_pose();
-    output::line(format_args!(
-        "{taken} scans taken in, {unmatched} of them placed by odometry alone, {without} without a place in tf"
-    ))?;
-    for left_out in mapping.left_out() {
-        output::line(format_args!("warning: {left_out}"))?;
-    }
-    Ok(())
 }

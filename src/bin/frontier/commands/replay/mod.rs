@@ -2,15 +2,14 @@
 
 mod comparison;
 
-use super::bag;
 use crate::exit::Outcome;
-use crate::{inputs, output, stop, values};
+use crate::{bags, inputs, output, stop, values};
 use anyhow::bail;
 use frontier_explorer::bag::Summary;
 use frontier_explorer::explore::{EndReason, Explorer, run as explore};
 use frontier_explorer::io::{load_preset, load_robot};
 use frontier_explorer::mapping::BuilderConfig;
-use frontier_explorer::replay::{BagRobot, Inputs, Player, Wanted};
+use frontier_explorer::replay::{BagRobot, Inputs, Verdict, Wanted};
 use frontier_explorer::report::RunRecord;
 use frontier_explorer::run::Pace;
 use frontier_explorer::run::record::{OutBag, ReplayRecorder, RunFolder};
@@ -76,7 +75,7 @@ fn positive(text: &str) -> Result<f64, String> {
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let began = Instant::now();
     let (preset, robot_config) = (load_preset(&args.config)?, load_robot(&args.robot)?);
-    let summary = bag::summary(&args.bag)?;
+    let summary = bags::summary(&args.bag)?;
     let wanted = Wanted {
         map_topic: args.map_topic.clone(),
         scan_topic: args.scan_topic.clone(),
@@ -87,18 +86,13 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     if args.map_from_scans {
         found.forget_map();
     }
-    let verdict = found.verdict(&summary);
+    let verdict = Verdict::of(&summary, &found);
     tell(args, &summary, &found)?;
     if let Err(missing) = &verdict.replay {
         bail!("{}: frontier replay: no, {missing}", args.bag.display());
     }
     let folder = RunFolder::create(&args.out, "replay.gif")?;
-    let mut player = Player::new(bag::open(&args.bag)?, &summary, found.clone());
-    if found.map_topic.is_none() {
-        let mut config = BuilderConfig::default();
-        config.mapper.resolution_m = args.resolution;
-        player.map_scans(config, &summary);
-    }
+    let mut player = bags::player(&args.bag, &summary, &found, BuilderConfig::with_resolution(args.resolution))?;
     let out_bag = args.out_bag.as_ref().map(|path| OutBag::create(path, &found, summary.start)).transpose()?;
     if let Some(out_bag) = &out_bag {
         player.set_tap(out_bag.tap());
@@ -135,8 +129,8 @@ fn tell(args: &Args, summary: &Summary, found: &Inputs) -> anyhow::Result<()> {
     if args.quiet {
         return Ok(());
     }
-    bag::warn(summary, found)?;
-    found.verdict(summary).sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
+    bags::warn(summary, found)?;
+    Verdict::of(summary, found).sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
 }
 
 fn report(
@@ -167,7 +161,7 @@ fn report(
         ))?;
     }
     comparison::print(recorder.agreement())?;
-    super::map::tell_scans(robot.player())?;
+    bags::tell_scans(robot.player())?;
     for sentence in robot.player().faults().sentences() {
         output::line(format_args!("warning: {sentence}"))?;
     }

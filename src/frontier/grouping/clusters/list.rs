@@ -1,6 +1,6 @@
 //! Writes the cells of all components into one list, each component's in row-major order.
 
-use super::Bands;
+use super::bands::Bands;
 use crate::bits::contacts::Starts;
 use crate::bits::{BitWork, WORD_CELLS};
 use crate::frontier::grouping::cell_lists::Room;

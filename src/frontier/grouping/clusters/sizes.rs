@@ -1,6 +1,6 @@
 //! Counts the cells of components and numbers those that are large enough to be frontiers.
 
-use super::Bands;
+use super::bands::Bands;
 use super::list::UNPLACED;
 use crate::bits::BitWork;
 use std::ops::Range;

@@ -11,15 +11,16 @@
 //! list the cells, when it is known which components cross from strip to strip and how large
 //! they are.
 
+mod bands;
 mod crossing;
 mod list;
 mod sizes;
 
-use crate::bits::contacts::{Meet, for_each_band_contact};
 use crate::bits::union_find::{UniteRuns, make_room};
 use crate::bits::{BitPlane, BitWork, WORD_CELLS, with_bit_instructions};
 use crate::frontier::grouping::cell_lists::FrontierCells;
 use crate::grid::Neighbourhood;
+use bands::Bands;
 use crossing::Crossing;
 use list::{Given, List, Piece};
 use sizes::{Count, Kept, number};
@@ -41,43 +42,6 @@ pub(crate) struct Clusters {
     /// A row without a cell, beyond the last.
     none: Vec<u64>,
     crossing: Crossing,
-}
-
-/// A plane cut into bands.
-#[derive(Clone, Copy)]
-struct Bands<'a> {
-    plane: &'a BitPlane,
-    none: &'a [u64],
-    eight: bool,
-}
-
-impl<'a> Bands<'a> {
-    /// Rows of a band.
-    #[inline(always)]
-    const fn rows(self) -> usize {
-        if self.eight { 2 } else { 1 }
-    }
-
-    #[inline(always)]
-    const fn count(self) -> usize {
-        self.plane.height().div_ceil(self.rows())
-    }
-
-    /// The two rows of a band, the second empty if there is none.
-    #[inline(always)]
-    fn band(self, band: usize) -> [&'a [u64]; 2] {
-        let row = |y: usize| if y < self.plane.height() { self.plane.row(y) } else { self.none };
-        if self.eight { [row(2 * band), row(2 * band + 1)] } else { [row(band), self.none] }
-    }
-
-    /// Meets the runs of a band that touch those of the band below it. The number of runs.
-    #[inline(always)]
-    fn for_each_contact(self, rows: [&[u64]; 2], below: [&[u64]; 2], visit: impl Meet) -> u32 {
-        let nearest = if self.eight { below[1] } else { below[0] };
-        let words = rows[0].iter().zip(rows[1]).zip(below[0].iter().zip(below[1]).zip(nearest));
-        let words = words.map(|((a, b), ((c, d), &near))| [(a | b, *a), (c | d, near)]);
-        for_each_band_contact(words, self.eight, visit)
-    }
 }
 
 /// Bands whose runs are labelled together.
