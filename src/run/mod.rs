@@ -4,6 +4,8 @@
 #[cfg(feature = "report")]
 pub mod comparison;
 mod error;
+#[cfg(feature = "report")]
+mod map_detection;
 mod named_world;
 mod pace;
 mod plan;
@@ -11,6 +13,8 @@ mod plan;
 pub mod record;
 
 pub use error::PlanError;
+#[cfg(feature = "report")]
+pub use map_detection::MapDetection;
 pub use named_world::NamedWorld;
 pub use pace::Pace;
 pub use plan::Plan;

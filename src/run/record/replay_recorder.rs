@@ -4,12 +4,13 @@ use super::outcome::Outcome;
 use super::{OutBag, RecordError, RunFolder, Trail};
 use crate::config::{Preset, RobotConfig};
 use crate::explore::{Decision, End, Explorer, Watcher};
-use crate::frontier::{DetectionInput, Frontier, FrontierDetector};
+use crate::frontier::FrontierDetector;
 use crate::geometry::Pose;
-use crate::grid::{Costmap, OccupancyGrid};
+use crate::grid::OccupancyGrid;
 use crate::replay::{Agreement, BagRobot, Parting};
-use crate::report::{Beside, BesideRow, FrameLog, Overlay, OverlayFrontier, RunRecord, Series, Theme};
+use crate::report::{Beside, BesideRow, FrameLog, RunRecord, Series, Theme};
 use crate::robot::Observation;
+use crate::run::MapDetection;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -141,13 +142,6 @@ impl<'a> ReplayRecorder<'a> {
         self.at.iter().rev().copied()
     }
 
-    fn detect(&mut self, grid: &OccupancyGrid, robot_in_map: Pose) -> Vec<Frontier> {
-        let costmap = Costmap::inflate(grid, &self.preset.explorer.thresholds, &self.robot.inflation());
-        let input = DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(grid, robot_in_map) };
-        // A map on which nothing can be detected shows none.
-        self.detector.detect(&input).unwrap_or_default()
-    }
-
     /// Makes the pictures whose times have come.
     fn picture(&mut self, robot: &BagRobot, observation: &Observation) -> Result<(), RecordError> {
         while let Some(&at_s) = self.at.last() {
@@ -156,22 +150,10 @@ impl<'a> ReplayRecorder<'a> {
                 return Ok(());
             }
             self.at.pop();
-            let frontiers = self.detect(&map.grid, pose);
-            let settings = &self.preset.explorer;
-            let goal = |f: &Frontier| settings.goal.representative.of(f, map.grid.info(), pose.position());
-            let shown: Vec<OverlayFrontier<'_>> = frontiers
-                .iter()
-                .map(|f| OverlayFrontier { cells: &f.cells, goal: Some(goal(f)), taboo: false })
-                .collect();
-            let overlay = Overlay {
-                grid: &map.grid,
-                thresholds: &settings.thresholds,
-                frontiers: &shown,
-                robot_in_map: Some(pose),
-                region: settings.region.as_ref(),
-                theme: Theme::Clear,
-            };
-            self.pictures.push(self.folder.save(&format!("at_{at_s}.png"), &overlay.to_png()?)?);
+            let seen = MapDetection { settings: &self.preset.explorer, grid: &map.grid, robot_in_map: pose };
+            // A map on which nothing can be detected shows no frontier.
+            let found = seen.detect(self.detector.as_mut(), self.robot).unwrap_or_default();
+            self.pictures.push(self.folder.save(&format!("at_{at_s}.png"), &seen.draw(&found, Theme::Clear)?)?);
         }
         Ok(())
     }

@@ -5,11 +5,12 @@ use crate::{output, values};
 use anyhow::Context;
 use comfy_table::Table;
 use frontier_explorer::explore::Position;
-use frontier_explorer::frontier::{DetectionInput, DetectorKind, Frontier, Reachability};
-use frontier_explorer::geometry::Pose;
-use frontier_explorer::grid::{Costmap, GridInfo, Neighbourhood};
+use frontier_explorer::frontier::{DetectorKind, Frontier, Reachability};
+use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::grid::{GridInfo, Neighbourhood};
 use frontier_explorer::io::{load_map, load_preset, load_robot, write_atomic};
-use frontier_explorer::report::{Overlay, OverlayFrontier, Theme};
+use frontier_explorer::report::Theme;
+use frontier_explorer::run::MapDetection;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -116,38 +117,23 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     detector.min_size_m = args.min_size.unwrap_or(detector.min_size_m);
     settings.validate()?;
     let grid = load_map(&args.map)?.grid;
-    let costmap = Costmap::inflate(&grid, &settings.thresholds, &load_robot(&args.robot)?.inflation());
+    let seen = MapDetection { settings: &settings, grid: &grid, robot_in_map: args.at };
     let mut detector = settings.detector.name.build(&settings.detector_params());
-    let frontiers = detector
-        .detect(&DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(&grid, args.at) })
-        .with_context(|| args.map.display().to_string())?;
+    let robot = load_robot(&args.robot)?;
+    let found = seen.detect(detector.as_mut(), &robot).with_context(|| args.map.display().to_string())?;
     let info = grid.info();
-    let goals: Vec<_> =
-        frontiers.iter().map(|f| settings.goal.representative.of(f, info, args.at.position())).collect();
     if let Some(file) = &args.overlay {
-        let shown: Vec<OverlayFrontier<'_>> = frontiers
-            .iter()
-            .zip(&goals)
-            .map(|(f, &goal)| OverlayFrontier { cells: &f.cells, goal: Some(goal), taboo: false })
-            .collect();
-        let overlay = Overlay {
-            grid: &grid,
-            thresholds: &settings.thresholds,
-            frontiers: &shown,
-            robot_in_map: Some(args.at),
-            region: settings.region.as_ref(),
-            theme: args.theme,
-        };
-        write_atomic(file, &overlay.to_png()?).with_context(|| format!("cannot write {}", file.display()))?;
+        let png = seen.draw(&found, args.theme)?;
+        write_atomic(file, &png).with_context(|| format!("cannot write {}", file.display()))?;
     }
-    let row = |(f, &goal): (&Frontier, &frontier_explorer::geometry::Point)| Row {
+    let row = |(f, goal): &(Frontier, Point)| Row {
         id: f.id,
-        goal: goal.into(),
+        goal: (*goal).into(),
         size_cells: f.cells.len(),
         size_m: f.size_m(info),
-        distance_m: args.at.distance_to(goal),
+        distance_m: args.at.distance_to(*goal),
     };
-    let mut rows: Vec<Row> = frontiers.iter().zip(&goals).map(row).collect();
+    let mut rows: Vec<Row> = found.iter().map(row).collect();
     rows.sort_by(|a, b| a.distance_m.total_cmp(&b.distance_m).then(a.id.cmp(&b.id)));
     print(args, info, detector.name(), settings.detector.reachability, rows)
 }
