@@ -14,7 +14,7 @@ pub mod geometry;
 pub mod grid;
 pub mod io;
 pub mod mapping;
-pub mod matching;
+pub(crate) mod matching;
 pub mod navigation;
 #[cfg(feature = "ros")]
 pub mod nodes;

@@ -32,7 +32,7 @@ mod topics;
 mod writer;
 
 pub use action::{GoalMessage, ResultMessage, goal, result};
-pub use chunk::{Compression, MAX_CHUNK_BYTES};
+pub use chunk::Compression;
 pub use connections::Connection;
 pub use content::{Chunk, ChunkMessage};
 pub use cursor::Malformed;
@@ -47,7 +47,8 @@ pub use message::{
     pose, scan, transforms,
 };
 pub use open::open_bag;
-pub use playback::{Playback, PlayedMessage};
+pub(crate) use playback::Playback;
+pub use playback::PlayedMessage;
 pub use reader::{BagError, BagReader};
 pub use scanner::BagScanner;
 pub use skew::Skew;

@@ -2,11 +2,12 @@
 //!
 //! <http://wiki.ros.org/Bags/Format/2.0>
 
+use super::Nanos;
 use super::chunk::Compression;
+use super::chunk::MAX_CHUNK_BYTES;
 use super::connections::Connection;
 use super::definitions::MessageType;
 use super::record::{MAGIC, op, put_field, put_record, put_u32, time_bytes};
-use super::{MAX_CHUNK_BYTES, Nanos};
 use std::collections::BTreeMap;
 use std::io::{self, Seek, SeekFrom, Write};
 

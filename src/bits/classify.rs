@@ -22,15 +22,6 @@ impl Classifier {
         Self { thresholds: *thresholds, portable: Portable::new(thresholds) }
     }
 
-    /// Whether the processor's vector unit is used.
-    #[must_use]
-    pub fn is_vectorised() -> bool {
-        #[cfg(target_arch = "x86_64")]
-        return super::simd::is_available();
-        #[cfg(not(target_arch = "x86_64"))]
-        return false;
-    }
-
     /// The free and the unknown cells among `cells`, 64 a word from the lowest bit; both
     /// slices must have a word for every 64 begun. Bits beyond the last cell are zero.
     pub fn classify(&self, cells: &[i8], free: &mut [u64], unknown: &mut [u64]) {

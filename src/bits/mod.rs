@@ -19,8 +19,8 @@ pub(crate) mod window;
 pub(crate) mod word_spans;
 
 pub(crate) use bit_work::BitWork;
-pub use classify::Classifier;
-pub use plane::{BitPlane, WORD_CELLS};
-pub(crate) use plane::{with_bit_instructions, words_of};
-pub use planes::BitPlanes;
+pub(crate) use classify::Classifier;
+pub use plane::BitPlane;
+pub(crate) use plane::{WORD_CELLS, with_bit_instructions, words_of};
+pub(crate) use planes::BitPlanes;
 pub(crate) use prefetch::prefetch;

@@ -13,9 +13,9 @@ pub use controller::{ControlError, ControlInput, Controller};
 pub use dwa::Dwa;
 pub use dwa_config::{DwaConfig, DwaWeights};
 pub use guard::StopGuard;
-pub use outline::Outline;
+pub(crate) use outline::Outline;
 pub use path_follower::{FollowerConfig, PathFollower};
-pub use surroundings::Surroundings;
+pub(crate) use surroundings::Surroundings;
 
 use crate::geometry::Body;
 use crate::range::OutOfRange;

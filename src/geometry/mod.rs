@@ -17,7 +17,8 @@ pub use footprint::{Footprint, FootprintError};
 pub use motion::{MotionLimits, Twist};
 pub use path::Path;
 pub use polygon::{Polygon, PolygonError};
-pub use pose::{Pose, normalize_angle, shortest_angle};
+pub(crate) use pose::normalize_angle;
+pub use pose::{Pose, shortest_angle};
 
 /// A point in the plane, in metres.
 pub type Point = nalgebra::Point2<f64>;

@@ -19,15 +19,17 @@ mod rect;
 mod state;
 mod vertical;
 
-pub use census::{Census, LiveCensus};
+pub use census::Census;
+pub(crate) use census::LiveCensus;
 pub use changes::Changes;
 pub use costmap::{
-    BelievedCosts, Costmap, FREE_COST, HIGHEST_COST, INSCRIBED_COST, Inflation, LETHAL_COST, LiveCostmap, NARROW_COST,
-    Roomy, UNKNOWN_COST,
+    BelievedCosts, Costmap, FREE_COST, HIGHEST_COST, INSCRIBED_COST, Inflation, LETHAL_COST, NARROW_COST, UNKNOWN_COST,
 };
+pub(crate) use costmap::{LiveCostmap, Roomy};
 pub use distance::squared_distance_cells;
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
-pub use live::{CellValues, Live, Snapshot, changed_rect};
+pub use live::Snapshot;
+pub(crate) use live::{CellValues, Live, changed_rect};
 pub use occupancy::{GridError, OccupancyGrid};
 pub use patch::{GridPatch, GridPatchError};
 pub use raytrace::{Traversal, traverse};

@@ -45,7 +45,7 @@ pub fn load_map(path: &Path) -> Result<LoadedMap, MapError> {
 ///
 /// # Errors
 /// As [`load_map`].
-pub fn map_from_bytes(name: &str, yaml: &str, image: &[u8]) -> Result<LoadedMap, MapError> {
+pub(super) fn map_from_bytes(name: &str, yaml: &str, image: &[u8]) -> Result<LoadedMap, MapError> {
     let path = Path::new(name);
     let yaml = MapYaml::parse(yaml, path)?;
     let image_path = yaml.image.clone();

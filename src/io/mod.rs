@@ -19,7 +19,7 @@ mod worlds;
 pub use atomic::{create_folder, write_atomic};
 pub use atomic_file::AtomicFile;
 pub use error::MapError;
-pub use map_load::{LoadedMap, load_map, map_from_bytes};
+pub use map_load::{LoadedMap, load_map};
 pub use map_save::{MapImage, SaveOptions, SavedPaths, check_map_path, save_map};
 pub use map_yaml::{MapMode, MapYaml};
 pub use settings::{SettingsFileError, file_stem, load_preset, load_robot};

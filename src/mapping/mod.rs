@@ -6,4 +6,5 @@
 mod builder;
 
 pub use crate::sim::MapperError;
-pub use builder::{BuilderConfig, MapBuilder};
+pub use builder::BuilderConfig;
+pub(crate) use builder::MapBuilder;

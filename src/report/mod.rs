@@ -25,20 +25,17 @@ mod view;
 
 pub use animation::Animation;
 pub use beside::{Beside, BesideRow};
-pub use canvas::Canvas;
 pub use comparison::{
-    COMPARISON_SCHEMA_VERSION, ComparedPreset, ComparedRun, ComparedWorld, Comparison, ComparisonError, ComparisonPlan,
-    LiangRow, LiangTable, Measure, PlannedRun, SUCCESS_COVERAGE, Spread, Summary, WorldPicture,
+    ComparedPreset, ComparedRun, ComparedWorld, Comparison, ComparisonError, ComparisonPlan, LiangRow, LiangTable,
+    Measure, PlannedRun, Spread, Summary, WorldPicture,
 };
 pub use frame_log::{Frame, FrameLog};
 pub use html::HtmlReport;
 pub use overlay::{Overlay, OverlayFrontier};
 pub use picture::{Picture, PictureGoal};
-pub use plots::{coverage_svg, distance_svg};
 pub use run_json::{MedianMax, Notice, RunRecord, SCHEMA_VERSION, Wall};
 pub use series::{ByShare, COVERAGE_SHARES, Series, SeriesPoint};
-pub use theme::{Ink, Rgb, Theme};
-pub use view::{Bounds, SizeLimits, View};
+pub use theme::Theme;
 
 /// Cells of margin around what is known of a map.
 const MARGIN_CELLS: u32 = 4;

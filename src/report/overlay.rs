@@ -38,7 +38,7 @@ pub struct Overlay<'a> {
 impl Overlay<'_> {
     /// Draws it.
     #[must_use]
-    pub fn draw(&self) -> Canvas {
+    pub(super) fn draw(&self) -> Canvas {
         let mut bounds = Bounds::of_known(self.grid, MARGIN_CELLS);
         if let Some(pose) = self.robot_in_map {
             bounds = bounds.including(pose.position());

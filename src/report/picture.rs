@@ -40,7 +40,7 @@ pub struct Picture<'a> {
 impl Picture<'_> {
     /// Draws it: the trajectory runs from light to dark.
     #[must_use]
-    pub fn draw(&self) -> Canvas {
+    pub(super) fn draw(&self) -> Canvas {
         let known = Bounds::of_known(self.grid, MARGIN_CELLS);
         let bounds = self.trajectory.iter().fold(known, |bounds, &point| bounds.including(point));
         let mut canvas = Canvas::new(View::fit(bounds, self.grid.info().resolution_m(), SizeLimits::STILL));

@@ -85,7 +85,7 @@ impl Theme {
 
     /// The colour of an ink.
     #[must_use]
-    pub const fn color(self, ink: Ink) -> Rgb {
+    pub(crate) const fn color(self, ink: Ink) -> Rgb {
         match (self, ink) {
             (Self::Clear, Ink::Unknown) => [0xb4, 0xb8, 0xbe],
             (Self::Clear, Ink::Free) => [0xfa, 0xfa, 0xf7],
@@ -109,7 +109,7 @@ impl Theme {
 
     /// All colours, by palette index.
     #[must_use]
-    pub fn palette(self) -> Vec<Rgb> {
+    pub(crate) fn palette(self) -> Vec<Rgb> {
         let inks = [
             Ink::Unknown,
             Ink::Free,
@@ -129,7 +129,7 @@ impl Theme {
 
     /// The colours a trajectory runs through, at shares 0, 1/2 and 1 of it.
     #[must_use]
-    pub const fn gradient_stops(self) -> [Rgb; 3] {
+    pub(crate) const fn gradient_stops(self) -> [Rgb; 3] {
         match self {
             Self::Clear => [[0x56, 0xb4, 0xe9], [0x00, 0x72, 0xb2], [0x3a, 0x0f, 0x5c]],
             Self::Paper => [[0xff, 0xff, 0xff], [0xff, 0xe0, 0x50], [0x20, 0x10, 0x20]],

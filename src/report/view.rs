@@ -147,7 +147,7 @@ impl View {
     /// Where a point of the map frame is, in pixels right and down of the outer
     /// corner of the first pixel; it may lie outside.
     #[must_use]
-    pub fn to_px(&self, point_in_map: Point) -> (f64, f64) {
+    pub fn to_px(self, point_in_map: Point) -> (f64, f64) {
         (
             (point_in_map.x - self.top_left_in_map.x) / self.m_per_px,
             (self.top_left_in_map.y - point_in_map.y) / self.m_per_px,

@@ -12,7 +12,7 @@ use crate::geometry::{Footprint, Point, Pose};
 use crate::grid::{Cell, GridInfo, NEIGHBOURS_8, Neighbourhood, OccupancyGrid};
 
 /// How far from where the robot can stand a free cell is still a target, metres.
-pub const SENSED_MARGIN_M: f64 = 0.35;
+const SENSED_MARGIN_M: f64 = 0.35;
 
 /// The cells that an exploration shall get to know.
 #[derive(Clone, Debug, PartialEq)]

@@ -20,19 +20,19 @@ pub fn planar(transform: &Isometry3<f64>) -> Pose {
 
 /// Whether a frame stands on its head in another: its z axis points down.
 #[must_use]
-pub fn is_upside_down(transform: &Isometry3<f64>) -> bool {
+pub(crate) fn is_upside_down(transform: &Isometry3<f64>) -> bool {
     (transform.rotation * Vector3::z()).z < 0.0
 }
 
 /// The transform of a pose in the plane.
 #[must_use]
-pub fn upright(pose: &Pose) -> Isometry3<f64> {
+pub(crate) fn upright(pose: &Pose) -> Isometry3<f64> {
     Isometry3::new(Vector3::new(pose.x, pose.y, 0.0), Vector3::z() * pose.yaw)
 }
 
 /// A frame's name without the leading slash of tf 1.
 #[must_use]
-pub fn frame_name(name: &str) -> &str {
+pub(crate) fn frame_name(name: &str) -> &str {
     name.trim_start_matches('/')
 }
 

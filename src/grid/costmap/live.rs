@@ -95,7 +95,7 @@ impl Roomy {
 }
 
 impl Costmap {
-    /// The same costmap for a robot that keeps to where it can turn, as [`Roomy`] makes it of
+    /// The same costmap for a robot that keeps to where it can turn, as `Roomy` makes it of
     /// costmaps that change. `None` where nothing is narrow.
     #[must_use]
     pub fn without_narrow(&self) -> Option<Self> {

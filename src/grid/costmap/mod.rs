@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 pub use believed::BelievedCosts;
 pub use inflation::Inflation;
-pub use live::{LiveCostmap, Roomy};
+pub(crate) use live::{LiveCostmap, Roomy};
 
 /// Cost of open space.
 pub const FREE_COST: u8 = 0;

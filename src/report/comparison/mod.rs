@@ -14,7 +14,7 @@ mod statistics;
 mod summary;
 mod world;
 
-pub use file::{COMPARISON_SCHEMA_VERSION, ComparisonError};
+pub use file::ComparisonError;
 pub use liang::{LiangRow, LiangTable};
 pub use statistics::Spread;
 pub use summary::{Measure, Summary};
@@ -28,7 +28,7 @@ use rounding::{centi, rounded, thinned};
 use serde::{Deserialize, Serialize};
 
 /// A run that covered less than this share has failed, however it ended.
-pub const SUCCESS_COVERAGE: f64 = 0.99;
+const SUCCESS_COVERAGE: f64 = 0.99;
 
 /// The most points of a run's coverage that are kept.
 const MAX_COVERAGE_POINTS: usize = 200;

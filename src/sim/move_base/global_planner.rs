@@ -88,7 +88,7 @@ impl GlobalPlanner for InflatedPlanner {
 /// The cell that GlobalPlanner takes a point of the map frame for; `None` outside. The
 /// costmap's own rotation is ignored there, too.
 #[must_use]
-pub fn global_planner_cell(info: &GridInfo, point_in_map: Point) -> Option<Cell> {
+fn global_planner_cell(info: &GridInfo, point_in_map: Point) -> Option<Cell> {
     let resolution = f64::from(info.resolution_m() as f32);
     let origin = info.origin_in_map();
     let (x, y) = (point_in_map.x - origin.x, point_in_map.y - origin.y);

@@ -33,7 +33,7 @@ mod recovery;
 mod task;
 
 pub use config::MoveBaseConfig;
-pub use global_planner::{InflatedPlanner, global_planner_cell};
+pub use global_planner::InflatedPlanner;
 pub use input::MoveBaseInput;
 
 use crate::config::RobotConfig;
@@ -112,12 +112,6 @@ impl MoveBase {
     pub fn cancel(&mut self) {
         (self.sent, self.task) = (None, None);
         self.navigation = Navigation { command: 0, state: NavigationState::Idle };
-    }
-
-    /// Whether a goal is under way.
-    #[must_use]
-    pub const fn is_active(&self) -> bool {
-        self.sent.is_some() || self.task.is_some()
     }
 
     /// The plan being followed, if any.
