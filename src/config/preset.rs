@@ -78,6 +78,7 @@ const BUILT_IN: &[(&str, &str)] = &[
     ("northwestern", include_str!("../../configs/northwestern.yaml")),
     ("explore_lite", include_str!("../../configs/explore_lite.yaml")),
     ("mrtsp", include_str!("../../configs/mrtsp.yaml")),
+    ("tour", include_str!("../../configs/tour.yaml")),
 ];
 
 impl Preset {

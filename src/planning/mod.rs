@@ -5,6 +5,7 @@ mod breadth_first;
 mod bucket_queue;
 mod canonical;
 mod change;
+mod coarse_ways;
 mod d_star_lite;
 mod dijkstra;
 mod driven;
@@ -20,6 +21,7 @@ mod swept;
 
 pub use astar::Astar;
 pub use breadth_first::{BreadthFirst, BreadthFirstConfig};
+pub use coarse_ways::CoarseWays;
 pub use d_star_lite::DStarLite;
 pub use dijkstra::Dijkstra;
 pub use driven::{Driven, Opened};

@@ -56,7 +56,7 @@ impl GoalSelector for ExploreLite {
         Needs { nearest: true, ..Needs::default() }
     }
 
-    fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], context: &mut SelectionContext<'_>) -> Vec<Score> {
         let (config, robot) = (self.0, context.robot_in_map);
         candidates
             .iter()

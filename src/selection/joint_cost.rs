@@ -45,7 +45,7 @@ impl GoalSelector for JointCost {
         "joint_cost"
     }
 
-    fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], _: &mut SelectionContext<'_>) -> Vec<Score> {
         let largest = |value: fn(&Candidate) -> f64| candidates.iter().map(value).fold(f64::MIN_POSITIVE, f64::max);
         let (largest_m, farthest_m) = (largest(|c| c.size_m), largest(|c| c.distance_m));
         candidates

@@ -16,7 +16,7 @@ impl GoalSelector for MaxGain {
         Needs { radius: true, ..Needs::default() }
     }
 
-    fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], _: &mut SelectionContext<'_>) -> Vec<Score> {
         let gains_m = candidates.iter().map(|c| c.radius_m.unwrap_or_default());
         gains_m.map(|gain_m| Score { total: -gain_m, parts: [("radius_m", gain_m)].into() }).collect()
     }

@@ -5,14 +5,19 @@ mod joint_cost;
 mod max_gain;
 mod mrtsp;
 mod nearest;
+mod open_tour;
 mod radius_distance;
+mod tour;
+mod ways;
 
 pub use explore_lite::{ExploreLite, ExploreLiteConfig};
 pub use joint_cost::{JointCost, JointCostConfig};
 pub use max_gain::MaxGain;
-pub use mrtsp::{EXACT_UP_TO, Mrtsp};
+pub use mrtsp::Mrtsp;
 pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
 pub use radius_distance::RadiusDistance;
+pub use tour::{Tour, TourConfig};
+pub use ways::{StraightWays, Ways};
 
 use crate::geometry::{Point, Pose};
 use crate::range::OutOfRange;
@@ -52,13 +57,18 @@ pub struct Needs {
     pub nearest: bool,
     /// [`Candidate::way_m`].
     pub way: bool,
+    /// [`SelectionContext::ways`] that go round obstacles.
+    pub ways: bool,
 }
 
 /// What a strategy knows besides the candidates.
-#[derive(Clone, Copy, Debug)]
-pub struct SelectionContext {
+pub struct SelectionContext<'a> {
     /// Where the robot is.
     pub robot_in_map: Pose,
+    /// The target that it is on its way to.
+    pub under_way: Option<Point>,
+    /// Ways between places: straight lines unless [`Needs::ways`] asks for more.
+    pub ways: &'a mut dyn Ways,
 }
 
 /// How good a candidate is: the smallest total is best.
@@ -80,8 +90,14 @@ pub trait GoalSelector: Send {
         Needs::default()
     }
 
+    /// Whether it weighs itself when to give a goal up for a better one; otherwise the
+    /// explorer keeps a goal as long as its frontier is there.
+    fn keeps_goals(&self) -> bool {
+        false
+    }
+
     /// One score for each candidate, in the same order.
-    fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score>;
+    fn score(&mut self, candidates: &[Candidate], context: &mut SelectionContext<'_>) -> Vec<Score>;
 }
 
 /// The strategies with their parameters, by name.
@@ -100,6 +116,8 @@ pub enum SelectorConfig {
     ExploreLite(ExploreLiteConfig),
     /// A tour over all frontiers (Scientific Reports 2025).
     Mrtsp {},
+    /// The shortest tour over the real ways, planned anew with every map.
+    Tour(TourConfig),
 }
 
 impl Default for SelectorConfig {
@@ -111,7 +129,7 @@ impl Default for SelectorConfig {
 impl SelectorConfig {
     /// All strategies with their default parameters, for tables of tests and help.
     #[must_use]
-    pub fn all() -> [Self; 6] {
+    pub fn all() -> [Self; 7] {
         [
             Self::default(),
             Self::MaxGain {},
@@ -119,6 +137,7 @@ impl SelectorConfig {
             Self::JointCost(JointCostConfig::default()),
             Self::ExploreLite(ExploreLiteConfig::default()),
             Self::Mrtsp {},
+            Self::Tour(TourConfig::default()),
         ]
     }
 
@@ -130,6 +149,7 @@ impl SelectorConfig {
         match self {
             Self::JointCost(config) => config.validate(),
             Self::ExploreLite(config) => config.validate(),
+            Self::Tour(config) => config.validate(),
             Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Ok(()),
         }
     }
@@ -144,6 +164,7 @@ impl SelectorConfig {
             Self::JointCost(config) => Box::new(JointCost(config)),
             Self::ExploreLite(config) => Box::new(ExploreLite(config)),
             Self::Mrtsp {} => Box::new(Mrtsp),
+            Self::Tour(config) => Box::new(Tour(config)),
         }
     }
 }

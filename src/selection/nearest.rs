@@ -50,7 +50,7 @@ impl GoalSelector for Nearest {
         Needs { way: self.0.distance == DistanceMeasure::Path, ..Needs::default() }
     }
 
-    fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], _: &mut SelectionContext<'_>) -> Vec<Score> {
         candidates
             .iter()
             .map(|c| {

@@ -21,7 +21,7 @@ impl GoalSelector for RadiusDistance {
         Needs { radius: true, ..Needs::default() }
     }
 
-    fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], _: &mut SelectionContext<'_>) -> Vec<Score> {
         candidates
             .iter()
             .map(|c| {

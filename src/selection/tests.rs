@@ -19,8 +19,9 @@ fn candidates() -> Vec<Candidate> {
 
 /// Indices from best to worst.
 fn order(config: SelectorConfig) -> Vec<usize> {
-    let context = SelectionContext { robot_in_map: Pose::default() };
-    let scores = config.build().score(&candidates(), &context);
+    let robot_in_map = Pose::default();
+    let mut context = SelectionContext { robot_in_map, under_way: None, ways: &mut StraightWays { robot_in_map } };
+    let scores = config.build().score(&candidates(), &mut context);
     let mut order: Vec<usize> = (0..scores.len()).collect();
     order.sort_by(|&a, &b| scores[a].total.total_cmp(&scores[b].total));
     order
@@ -45,6 +46,7 @@ fn each_strategy_has_its_own_order() {
         (explore_lite(60.0), [0, 2, 1]),
         // 4 / 2 + 2 / 0.3 + 7 / 6 = 9.8
         (SelectorConfig::Mrtsp {}, [2, 0, 1]),
+        (SelectorConfig::Tour(TourConfig::default()), [0, 2, 1]),
     ] {
         assert_eq!(order(config), expected, "{config:?}");
     }
@@ -52,11 +54,12 @@ fn each_strategy_has_its_own_order() {
 
 #[test]
 fn scores_are_finite_name_their_parts_and_come_one_for_each() {
-    let context = SelectionContext { robot_in_map: Pose::default() };
+    let robot_in_map = Pose::default();
+    let mut context = SelectionContext { robot_in_map, under_way: None, ways: &mut StraightWays { robot_in_map } };
     for config in SelectorConfig::all() {
         let mut selector = config.build();
-        assert!(selector.score(&[], &context).is_empty());
-        let scores = selector.score(&candidates(), &context);
+        assert!(selector.score(&[], &mut context).is_empty());
+        let scores = selector.score(&candidates(), &mut context);
         assert_eq!(scores.len(), 3);
         assert!(scores.iter().all(|s| s.total.is_finite() && !s.parts.is_empty()), "{}", selector.name());
         let yaml = serde_json::to_value(config).unwrap();
