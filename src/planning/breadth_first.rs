@@ -13,6 +13,7 @@ use super::lattice::Lattice;
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::Pose;
 use crate::grid::{Costmap, INSCRIBED_COST};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Entry of a cell that the search has not reached.
@@ -21,11 +22,11 @@ const NOT_REACHED: u8 = 0xff;
 const START: u8 = 0xfe;
 
 /// Parameters of the planner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BreadthFirstConfig {
-    /// The cost up to which a cell leaves room enough beside the way; from 252 on all
-    /// passable cells do.
+    /// The cost of the costmap up to which a cell leaves room enough beside the way. From 252 on
+    /// all passable cells do.
     pub max_cost: u8,
 }
 

@@ -10,11 +10,12 @@
 
 use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 use crate::geometry::{Pose, shortest_angle};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Weights, with the values of explore_lite's launch file.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExploreLiteConfig {
     /// Weight of the distance, per metre and metre of resolution.
@@ -32,14 +33,14 @@ impl Default for ExploreLiteConfig {
 }
 
 impl ExploreLiteConfig {
-    /// Checks the weights.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] for a weight below 0.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless_not_negative("selection.potential_scale", self.potential_scale)?;
-        OutOfRange::unless_not_negative("selection.orientation_scale", self.orientation_scale)?;
-        OutOfRange::unless_not_negative("selection.gain_scale", self.gain_scale)
+    /// The weights with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let weights = [
+            ("selection.potential_scale", self.potential_scale),
+            ("selection.orientation_scale", self.orientation_scale),
+            ("selection.gain_scale", self.gain_scale),
+        ];
+        weights.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)).into()
     }
 }
 

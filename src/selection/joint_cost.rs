@@ -6,16 +6,17 @@
 //! present and weighted.
 
 use super::{Candidate, GoalSelector, Score, SelectionContext};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Weights of the two costs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct JointCostConfig {
-    /// Weight of the cost of being small.
+    /// Weight of the cost of being small, a cost of 0 to 1.
     pub size_weight: f64,
-    /// Weight of the cost of being far.
+    /// Weight of the cost of being far, a cost of 0 to 1.
     pub distance_weight: f64,
 }
 
@@ -26,13 +27,11 @@ impl Default for JointCostConfig {
 }
 
 impl JointCostConfig {
-    /// Checks the weights.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] for a weight below 0.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless_not_negative("selection.size_weight", self.size_weight)?;
-        OutOfRange::unless_not_negative("selection.distance_weight", self.distance_weight)
+    /// The weights with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let weights =
+            [("selection.size_weight", self.size_weight), ("selection.distance_weight", self.distance_weight)];
+        weights.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)).into()
     }
 }
 

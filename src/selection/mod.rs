@@ -15,7 +15,8 @@ pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
 pub use radius_distance::RadiusDistance;
 
 use crate::geometry::{Point, Pose};
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -85,7 +86,7 @@ pub trait GoalSelector: Send {
 }
 
 /// The strategies with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum SelectorConfig {
     /// The nearest first (Topiwala 2018, Yamauchi 1997).
@@ -127,10 +128,15 @@ impl SelectorConfig {
     /// # Errors
     /// [`OutOfRange`] that names the parameter.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::JointCost(config) => config.validate(),
-            Self::ExploreLite(config) => config.validate(),
-            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Ok(()),
+            Self::JointCost(config) => config.numbers(),
+            Self::ExploreLite(config) => config.numbers(),
+            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Vec::new(),
         }
     }
 

@@ -5,10 +5,11 @@
 //! the nearest by the way that the planner finds.
 
 use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How nearness is measured.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DistanceMeasure {
     /// By the straight line to the frontier.
@@ -30,7 +31,7 @@ impl DistanceMeasure {
 }
 
 /// Parameters of the strategy.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct NearestConfig {
     /// How nearness is measured.
