@@ -18,6 +18,11 @@ pub trait Watcher<R> {
     }
 }
 
+/// Nobody looks on.
+impl<R> Watcher<R> for () {
+    fn after_step(&mut self, _: &R, _: &Explorer, _: &Observation, _: &Decision) {}
+}
+
 /// Runs the explorer on a robot until one of them ends.
 pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl Watcher<R>) -> End {
     let mut now_s = 0.0;

@@ -100,6 +100,23 @@ impl Default for HybridAstarConfig {
 }
 
 /// The planner for one robot.
+///
+/// The robot looks aside: it drives a bow, where other planners lead straight to the goal.
+///
+/// ```
+/// use frontier_explorer::config::builtin_robot;
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Costmap, GridInfo};
+/// use frontier_explorer::planning::{Astar, GlobalPlanner, HybridAstar, HybridAstarConfig};
+///
+/// let costmap = Costmap::from_costs(GridInfo::new(40, 40, 0.1, Pose::default())?, vec![0; 1600]).unwrap();
+/// let (start, goal) = (Pose::new(1.0, 2.0, 0.0), Pose::new(1.0, 3.0, 3.1));
+/// let mut planner = HybridAstar::new(HybridAstarConfig::default(), builtin_robot("turtlebot2")?.body());
+/// let bow = planner.plan(&costmap, &start, &goal)?;
+/// assert!(bow.length_m() > Astar::default().plan(&costmap, &start, &goal)?.length_m());
+/// assert!(bow.poses.iter().any(|pose| pose.x > 1.1), "it begins straight on or in an arc");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct HybridAstar {
     config: HybridAstarConfig,

@@ -45,6 +45,26 @@ impl ExploreLiteConfig {
 }
 
 /// The strategy.
+///
+/// With the scales of its launch file a metre of frontier outweighs six metres of distance at
+/// cells of 0.05 m, since the distance is multiplied by the resolution:
+///
+/// ```
+/// use frontier_explorer::geometry::{Point, Pose};
+/// use frontier_explorer::selection::{
+///     Candidate, ExploreLite, ExploreLiteConfig, GoalSelector, SelectionContext,
+/// };
+///
+/// let robot_in_map = Pose::default();
+/// let at = |x: f64, cells| Candidate {
+///     nearest_m: Some(x),
+///     ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), cells, 0.05, &robot_in_map)
+/// };
+/// let mut selector = ExploreLite(ExploreLiteConfig::default());
+/// let scores = selector.score(&[at(1.0, 20), at(7.0, 40)], &SelectionContext { robot_in_map });
+/// // 3.0 * 1.0 * 0.05 - 1.0 * 1.0, and 3.0 * 7.0 * 0.05 - 1.0 * 2.0
+/// assert!((scores[0].total - -0.85).abs() < 1e-9 && (scores[1].total - -0.95).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ExploreLite(pub ExploreLiteConfig);
 

@@ -44,6 +44,24 @@ pub struct Candidate {
     pub way_m: Option<f64>,
 }
 
+impl Candidate {
+    /// A candidate with what is known of each: its frontier's point and number of cells of
+    /// `resolution_m` metres, and where the robot is and would stand.
+    #[must_use]
+    pub fn new(target: Point, goal: Pose, size_cells: usize, resolution_m: f64, robot_in_map: &Pose) -> Self {
+        Self {
+            target,
+            goal,
+            size_cells,
+            size_m: size_cells as f64 * resolution_m,
+            radius_m: None,
+            distance_m: robot_in_map.distance_to(target),
+            nearest_m: None,
+            way_m: None,
+        }
+    }
+}
+
 /// What takes time to find out of each frontier, and is left out unless needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {

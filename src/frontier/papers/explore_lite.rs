@@ -13,6 +13,23 @@ use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Fro
 use crate::grid::{Cell, Neighbourhood};
 
 /// The detector.
+///
+/// A corner does not make a frontier cell, as it does for [`Wavefront`](crate::frontier::Wavefront):
+///
+/// ```
+/// use frontier_explorer::frontier::{DetectionInput, DetectorParams, ExploreLiteSearch, FrontierDetector, Wavefront};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::OccupancyGrid;
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     "##?
+///      ..#",
+/// ).unwrap();
+/// let (input, params) = (DetectionInput::new(&grid, Pose::new(0.5, 0.5, 0.0)), DetectorParams::default());
+/// assert_eq!(Wavefront::new(params).detect(&input)?.len(), 1);
+/// assert_eq!(ExploreLiteSearch::new(params).detect(&input)?.len(), 0);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ExploreLiteSearch {
     params: DetectorParams,
