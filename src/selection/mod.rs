@@ -15,7 +15,8 @@ pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
 pub use radius_distance::RadiusDistance;
 
 use crate::geometry::{Point, Pose};
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -41,6 +42,24 @@ pub struct Candidate {
     /// Cost of the cheapest way to the goal, in metres of open space; present for the
     /// strategies that need it.
     pub way_m: Option<f64>,
+}
+
+impl Candidate {
+    /// A candidate with what is known of each: its frontier's point and number of cells of
+    /// `resolution_m` metres, and where the robot is and would stand.
+    #[must_use]
+    pub fn new(target: Point, goal: Pose, size_cells: usize, resolution_m: f64, robot_in_map: &Pose) -> Self {
+        Self {
+            target,
+            goal,
+            size_cells,
+            size_m: size_cells as f64 * resolution_m,
+            radius_m: None,
+            distance_m: robot_in_map.distance_to(target),
+            nearest_m: None,
+            way_m: None,
+        }
+    }
 }
 
 /// What takes time to find out of each frontier, and is left out unless needed.
@@ -85,7 +104,7 @@ pub trait GoalSelector: Send {
 }
 
 /// The strategies with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum SelectorConfig {
     /// The nearest first (Topiwala 2018, Yamauchi 1997).
@@ -127,10 +146,15 @@ impl SelectorConfig {
     /// # Errors
     /// [`OutOfRange`] that names the parameter.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::JointCost(config) => config.validate(),
-            Self::ExploreLite(config) => config.validate(),
-            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Ok(()),
+            Self::JointCost(config) => config.numbers(),
+            Self::ExploreLite(config) => config.numbers(),
+            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Vec::new(),
         }
     }
 

@@ -5,14 +5,10 @@ use super::*;
 /// Near and small, far and large, in between behind a detour.
 fn candidates() -> Vec<Candidate> {
     let at = |x: f64, size_m: f64, radius_m: f64, way_m: f64| Candidate {
-        target: Point::new(x, 0.0),
-        goal: Pose::new(x, 0.0, 0.0),
-        size_cells: (size_m * 20.0) as usize,
-        size_m,
         radius_m: Some(radius_m),
-        distance_m: x,
         nearest_m: Some(x),
         way_m: Some(way_m),
+        ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), (size_m * 20.0) as usize, 0.05, &Pose::default())
     };
     vec![at(1.0, 0.3, 0.15, 9.0), at(8.0, 6.0, 3.0, 8.0), at(3.0, 2.0, 1.2, 4.0)]
 }
