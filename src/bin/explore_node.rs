@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(frontier_explorer::ros::explore_node())
+    ExitCode::from(frontier_explorer::nodes::explore_node())
 }

@@ -4,5 +4,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(frontier_explorer::ros::sim_node())
+    ExitCode::from(frontier_explorer::nodes::sim_node())
 }

@@ -75,14 +75,10 @@ impl Assessor<'_> {
         let distance_m = self.robot.distance_to(target);
         let size_m = frontier.size_m(info);
         let candidate = goal.map(|goal| Candidate {
-            target,
-            goal,
-            size_cells: frontier.cells.len(),
-            size_m,
             radius_m: needs.radius.then(|| frontier.enclosing_circle(info).map_or(0.0, |circle| circle.radius_m)),
-            distance_m,
             nearest_m: needs.nearest.then(|| self.nearest_m(frontier)),
             way_m: self.way_m(&goal),
+            ..Candidate::new(target, goal, frontier.cells.len(), info.resolution_m(), &self.robot)
         });
         let record = CandidateRecord {
             id: frontier.id,

@@ -18,6 +18,28 @@ pub trait Watcher<R> {
     }
 }
 
+/// Two that look on together, the first one first.
+impl<R, A: Watcher<R>, B: Watcher<R>> Watcher<R> for (A, B) {
+    fn before_step(&mut self, robot: &R, explorer: &mut Explorer, observation: &Observation) {
+        self.0.before_step(robot, explorer, observation);
+        self.1.before_step(robot, explorer, observation);
+    }
+
+    fn after_step(&mut self, robot: &R, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+        self.0.after_step(robot, explorer, observation, decision);
+        self.1.after_step(robot, explorer, observation, decision);
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.0.stop_requested() || self.1.stop_requested()
+    }
+}
+
+/// Nobody looks on.
+impl<R> Watcher<R> for () {
+    fn after_step(&mut self, _: &R, _: &Explorer, _: &Observation, _: &Decision) {}
+}
+
 /// Runs the explorer on a robot until one of them ends.
 pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl Watcher<R>) -> End {
     let mut now_s = 0.0;

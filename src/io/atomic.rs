@@ -20,6 +20,14 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.commit()
 }
 
+/// Makes a folder, and those above it, unless it is there.
+///
+/// # Errors
+/// What the file system says against it.
+pub fn create_folder(path: &Path) -> io::Result<()> {
+    std::fs::create_dir_all(path)
+}
+
 /// Whether `path` could be written now: its folder takes a file, or what stands there is
 /// a device or a pipe. Nothing is left behind and nothing is changed.
 ///

@@ -16,7 +16,7 @@ mod pgm;
 mod settings;
 mod worlds;
 
-pub use atomic::write_atomic;
+pub use atomic::{create_folder, write_atomic};
 pub use atomic_file::AtomicFile;
 pub use error::MapError;
 pub use map_load::{LoadedMap, load_map, map_from_bytes};

@@ -34,7 +34,8 @@ pub use crate::geometry::Path;
 
 use crate::geometry::{Body, Point, Pose};
 use crate::grid::Costmap;
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Why there is no path.
@@ -110,7 +111,7 @@ pub trait GlobalPlanner: Send {
 }
 
 /// The planners with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PlannerConfig {
     /// The fewest cells, all passable ones alike (Yamauchi 1997).
@@ -146,9 +147,14 @@ impl PlannerConfig {
     /// # Errors
     /// [`OutOfRange`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::BreadthFirst(_) | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Ok(()),
-            Self::HybridAstar(config) => config.validate(),
+            Self::BreadthFirst(_) | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Vec::new(),
+            Self::HybridAstar(config) => config.numbers(),
         }
     }
 

@@ -32,6 +32,15 @@ pub struct Parting {
     pub detail: String,
 }
 
+impl Parting {
+    /// The cause with the figures behind it.
+    #[must_use]
+    pub fn full_cause(&self) -> String {
+        let Self { cause, detail, .. } = self;
+        if detail.is_empty() { cause.clone() } else { format!("{cause} ({detail})") }
+    }
+}
+
 /// A goal of the recording, and what we saw there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecordedSight {

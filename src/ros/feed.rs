@@ -7,11 +7,9 @@
 
 mod renewal;
 
-pub use renewal::Rhythm;
-
 use super::log::Level;
 use super::node::{Node, describe};
-use renewal::{Listed, Renewal, Seen};
+use renewal::{Listed, Renewal, Rhythm, Seen};
 use rosrust::{Message, Subscriber};
 use std::collections::{BTreeSet, HashMap};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -39,8 +37,31 @@ pub struct Feed {
 }
 
 impl Feed {
-    /// Begins to listen to a topic that talks in some rhythm.
-    pub(super) fn open<T: Message>(
+    /// Listens to a topic on a thread of its own. When it has talked and is silent for
+    /// longer than `silence`, the subscription is made anew.
+    pub fn listen<T: Message>(
+        node: &Node,
+        topic: &str,
+        queue: usize,
+        silence: Duration,
+        on_message: impl Fn(T, &str) + Send + Sync + 'static,
+    ) -> Self {
+        Self::open(node, topic, queue, Rhythm::Steady(silence), on_message)
+    }
+
+    /// Listens to a topic that may rightly be silent. Every `period` it is looked whether
+    /// all its publishers are met; silence alone is no reason to subscribe anew.
+    pub fn listen_seldom<T: Message>(
+        node: &Node,
+        topic: &str,
+        queue: usize,
+        period: Duration,
+        on_message: impl Fn(T, &str) + Send + Sync + 'static,
+    ) -> Self {
+        Self::open(node, topic, queue, Rhythm::Seldom(period), on_message)
+    }
+
+    fn open<T: Message>(
         node: &Node,
         topic: &str,
         queue: usize,

@@ -154,7 +154,7 @@ impl MapReader {
 
 fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell>) -> Feed {
     let (state, bell, owner, name) = (Arc::clone(state), Arc::clone(bell), node.clone(), topic.to_owned());
-    node.listen(topic, 2, SILENCE, move |message: MapMessage, caller| {
+    Feed::listen(node, topic, 2, SILENCE, move |message: MapMessage, caller| {
         let arrived = Instant::now();
         let stamp_s = believable(convert::seconds(&message.header.stamp), owner.now_s());
         let frame = message.header.frame_id.clone();
@@ -175,7 +175,7 @@ fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell
 
 fn listen_to_updates(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell>) -> Feed {
     let (state, bell, owner, name) = (Arc::clone(state), Arc::clone(bell), node.clone(), topic.to_owned());
-    node.listen(topic, 50, SILENCE, move |message: OccupancyGridUpdate, caller| {
+    Feed::listen(node, topic, 50, SILENCE, move |message: OccupancyGridUpdate, caller| {
         let (seq, arrived) = (message.header.seq, Instant::now());
         let stamp_s = believable(convert::seconds(&message.header.stamp), owner.now_s());
         let patch = convert::patch(message);
@@ -208,6 +208,18 @@ fn believable(header_s: f64, now_s: f64) -> f64 {
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Waits for one map of a topic and returns it: `frontier map save`.
+///
+/// # Errors
+/// A sentence when none comes in time, or the node is told to stop.
+pub fn receive_map(node: &Node, topic: &str, limit: Duration) -> Result<ReceivedMap, String> {
+    let bell = Arc::default();
+    let feed = MapFeed::listen(node, topic, "", &bell);
+    let reader = feed.reader();
+    node.wait_until(limit, || reader.newest().is_some());
+    reader.newest().ok_or_else(|| format!("no map came on {topic} for {} s", limit.as_secs()))
 }
 
 #[cfg(test)]

@@ -1,48 +1,43 @@
-//! The ROS 1 adapter (floor 3): rosrust behind the guards that a robot needs, the robot
-//! that the explorer sees through it, and the two nodes.
+//! The ROS 1 adapter (floor 3): rosrust behind the guards that a robot needs, and the robot
+//! that the explorer sees through it.
 //!
 //! rosrust, its traps and the ways round them stay in this room. Each node is an object
 //! of its own ([`Node`]), so that one process may run several.
 
-mod bell;
+pub(crate) mod actionlib;
+pub(crate) mod bell;
 mod call;
 mod clock;
 mod clock_watch;
-mod convert;
+pub(crate) mod convert;
 mod directory;
-mod display;
+pub(crate) mod display;
 mod embedded_master;
-mod explore_node;
 mod feed;
 mod frames;
-mod log;
-mod map_feed;
+pub(crate) mod log;
+pub(crate) mod map_feed;
 mod master;
-mod move_base;
+pub(crate) mod move_base;
 pub mod msg;
 mod node;
 mod params;
-mod pilot;
-mod program;
-mod region;
-mod robot;
-mod robot_map;
-mod scan_feed;
-mod sim_node;
+pub(crate) mod pilot;
+pub(crate) mod program;
+pub(crate) mod region;
+pub(crate) mod robot;
+pub(crate) mod robot_map;
+pub(crate) mod scan_feed;
 pub mod stop;
-mod transforms;
-mod troubles;
+pub(crate) mod transforms;
+pub(crate) mod troubles;
 mod turn_goals;
 
-pub use call::{CallError, call};
-pub use clock::RunClock;
 pub use embedded_master::{EmbeddedMasterError, start_embedded_master};
-pub use explore_node::{ExploreNodeError, explore_node, explore_with, receive_map};
 pub use feed::Feed;
 pub use log::{Level, Log};
-pub use map_feed::{MapReader, ReceivedMap};
+pub use map_feed::{ReceivedMap, receive_map};
 pub use master::{MasterError, probe};
-pub use move_base::{GoalStatus, GoalTracker};
 pub use node::{Node, NodeError};
-pub use robot::RosRobot;
-pub use sim_node::{Fault, SimNodeError, SimParams, SimParamsError, sim_node, simulate_with};
+pub(crate) use robot::RosRobot;
+pub(crate) use rosrust::{Publisher, Service};

@@ -1,7 +1,6 @@
 //! One ROS node: rosrust behind the guards that a robot needs.
 
 use super::directory::{Directory, Listing};
-use super::feed::{Feed, Rhythm};
 use super::log::{Level, Log, bridge};
 use super::master::{MasterError, probe};
 use super::{params, stop};
@@ -200,30 +199,6 @@ impl Node {
         self.ros
             .service::<T, _>(service, handler)
             .map_err(|e| NodeError::Offer { name: service.to_owned(), why: describe(&e) })
-    }
-
-    /// Listens to a topic on a thread of its own. When it has talked and is silent for
-    /// longer than `silence`, the subscription is made anew.
-    pub fn listen<T: Message>(
-        &self,
-        topic: &str,
-        queue: usize,
-        silence: Duration,
-        on_message: impl Fn(T, &str) + Send + Sync + 'static,
-    ) -> Feed {
-        Feed::open(self, topic, queue, Rhythm::Steady(silence), on_message)
-    }
-
-    /// Listens to a topic that may rightly be silent. Every `period` it is looked whether
-    /// all its publishers are met; silence alone is no reason to subscribe anew.
-    pub fn listen_seldom<T: Message>(
-        &self,
-        topic: &str,
-        queue: usize,
-        period: Duration,
-        on_message: impl Fn(T, &str) + Send + Sync + 'static,
-    ) -> Feed {
-        Feed::open(self, topic, queue, Rhythm::Seldom(period), on_message)
     }
 
     /// What the master last said of topics and nodes. An answer older than `max_age` is

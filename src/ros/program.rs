@@ -6,7 +6,7 @@ use super::stop;
 use std::fmt::Display;
 
 /// Prints a node's help where its command line asks for it, and whether it did.
-pub(super) fn has_helped(text: impl FnOnce() -> String) -> bool {
+pub(crate) fn has_helped(text: impl FnOnce() -> String) -> bool {
     let asks = std::env::args().skip(1).any(|argument| argument == "--help" || argument == "-h");
     if asks {
         // A reader that has gone is no error.
@@ -18,7 +18,7 @@ pub(super) fn has_helped(text: impl FnOnce() -> String) -> bool {
 /// Starts a node, lets it work, and says good-bye. Returns the exit code: what the work
 /// returns, or 1 with a line on what failed. Told to stop, the process ends within two
 /// seconds; what must not be lost then is for the work to say (`stop::set_will`).
-pub(super) fn run_program<E: Display>(name: &str, work: impl FnOnce(&Node) -> Result<u8, E>) -> u8 {
+pub(crate) fn run_program<E: Display>(name: &str, work: impl FnOnce(&Node) -> Result<u8, E>) -> u8 {
     let failed = |why: &dyn Display| {
         Log::new(name).error(why);
         1

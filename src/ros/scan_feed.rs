@@ -53,7 +53,7 @@ impl ScanFeed {
     pub fn listen(node: &Node, topic: &str) -> Self {
         let state = Arc::<Mutex<State>>::default();
         let (theirs, owner) = (Arc::clone(&state), node.clone());
-        let feed = node.listen(topic, 2, SILENCE, move |message: ScanMessage, _| {
+        let feed = Feed::listen(node, topic, 2, SILENCE, move |message: ScanMessage, _| {
             let sight = convert::scan(&message).sight();
             let mut state = lock(&theirs);
             state.blind = sight.err().map(|why| why.to_string());

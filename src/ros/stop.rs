@@ -59,7 +59,7 @@ pub fn settle(code: u8) {
 }
 
 /// What is to be done before the process ends, unless a code is settled before.
-pub(super) fn set_will(will: impl FnOnce() -> u8 + Send + 'static) {
+pub(crate) fn set_will(will: impl FnOnce() -> u8 + Send + 'static) {
     CODE.store(-1, Ordering::Relaxed);
     *WILL.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(will));
 }

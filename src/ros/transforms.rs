@@ -40,8 +40,8 @@ impl Transforms {
                 }
             }
         };
-        let moving = node.listen("/tf", 100, SILENCE, taker("/tf", false));
-        let fixed = node.listen_seldom("/tf_static", 100, STATIC_LOOK, taker("/tf_static", true));
+        let moving = Feed::listen(node, "/tf", 100, SILENCE, taker("/tf", false));
+        let fixed = Feed::listen_seldom(node, "/tf_static", 100, STATIC_LOOK, taker("/tf_static", true));
         Self { frames, _feeds: [moving, fixed] }
     }
 

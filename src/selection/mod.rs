@@ -20,7 +20,8 @@ pub use tour::{Tour, TourConfig};
 pub use ways::{StraightWays, Ways};
 
 use crate::geometry::{Point, Pose};
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -48,6 +49,24 @@ pub struct Candidate {
     pub way_m: Option<f64>,
 }
 
+impl Candidate {
+    /// A candidate with what is known of each: its frontier's point and number of cells of
+    /// `resolution_m` metres, and where the robot is and would stand.
+    #[must_use]
+    pub fn new(target: Point, goal: Pose, size_cells: usize, resolution_m: f64, robot_in_map: &Pose) -> Self {
+        Self {
+            target,
+            goal,
+            size_cells,
+            size_m: size_cells as f64 * resolution_m,
+            radius_m: None,
+            distance_m: robot_in_map.distance_to(target),
+            nearest_m: None,
+            way_m: None,
+        }
+    }
+}
+
 /// What takes time to find out of each frontier, and is left out unless needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
@@ -69,6 +88,14 @@ pub struct SelectionContext<'a> {
     pub under_way: Option<Point>,
     /// Ways between places: straight lines unless [`Needs::ways`] asks for more.
     pub ways: &'a mut dyn Ways,
+}
+
+impl<'a> SelectionContext<'a> {
+    /// That of a robot that is on its way to nothing, where nothing is in the way.
+    #[must_use]
+    pub fn straight(ways: &'a mut StraightWays) -> Self {
+        Self { robot_in_map: ways.robot_in_map, under_way: None, ways }
+    }
 }
 
 /// How good a candidate is: the smallest total is best.
@@ -101,7 +128,7 @@ pub trait GoalSelector: Send {
 }
 
 /// The strategies with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum SelectorConfig {
     /// The nearest first (Topiwala 2018, Yamauchi 1997).
@@ -146,11 +173,16 @@ impl SelectorConfig {
     /// # Errors
     /// [`OutOfRange`] that names the parameter.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::JointCost(config) => config.validate(),
-            Self::ExploreLite(config) => config.validate(),
-            Self::Tour(config) => config.validate(),
-            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Ok(()),
+            Self::JointCost(config) => config.numbers(),
+            Self::ExploreLite(config) => config.numbers(),
+            Self::Tour(config) => config.numbers(),
+            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Vec::new(),
         }
     }
 

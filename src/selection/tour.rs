@@ -20,11 +20,12 @@
 use super::open_tour::OpenTour;
 use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 use crate::geometry::Point;
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the strategy.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TourConfig {
     /// How many frontiers are ordered, the nearest by way.
@@ -47,25 +48,46 @@ impl Default for TourConfig {
 }
 
 impl TourConfig {
-    /// Checks the parameters.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the parameter.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless(self.most >= 1, "selection.most", self.most as f64, ">= 1")?;
-        for (name, value) in [
+    /// The numbers with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let most = Range::within(1.0, MOST, "1 to 64").of("selection.most", self.most as f64);
+        let others = [
             ("selection.turn_m_per_rad", self.turn_m_per_rad),
             ("selection.free_turn_rad", self.free_turn_rad),
             ("selection.stay_m", self.stay_m),
             ("selection.same_m", self.same_m),
-        ] {
-            OutOfRange::unless_not_negative(name, value)?;
-        }
-        Ok(())
+        ];
+        [most].into_iter().chain(others.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value))).collect()
     }
 }
 
+/// More frontiers than this would take too long to order.
+const MOST: f64 = 64.0;
+
 /// The strategy.
+///
+/// What lies on the way to the far end is seen first, though the far end alone is nearer:
+///
+/// ```
+/// use frontier_explorer::geometry::{Point, Pose};
+/// use frontier_explorer::selection::{
+///     Candidate, GoalSelector, SelectionContext, StraightWays, Tour, TourConfig,
+/// };
+///
+/// let robot_in_map = Pose::default();
+/// let at = |x: f64| Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), 10, 0.5, &robot_in_map);
+/// // 1 m behind it is less far than 2 m ahead, and to turn round costs three.
+/// let candidates = [at(-1.0), at(2.0), at(5.0)];
+/// let mut ways = StraightWays { robot_in_map };
+/// let places = |tour: TourConfig, ways: &mut StraightWays| -> Vec<f64> {
+///     let scores = Tour(tour).score(&candidates, &mut SelectionContext::straight(ways));
+///     scores.iter().map(|score| score.total).collect()
+/// };
+/// let no_turn = TourConfig { turn_m_per_rad: 0.0, ..TourConfig::default() };
+/// assert_eq!(places(no_turn, &mut ways), [0.0, 1.0, 2.0]);
+/// let turn = TourConfig { turn_m_per_rad: 2.0, ..TourConfig::default() };
+/// assert_eq!(places(turn, &mut ways), [2.0, 0.0, 1.0]);
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tour(pub TourConfig);
 

@@ -1,7 +1,7 @@
 //! Who drives the simulated robot to its goals.
 
 use super::move_base::{MoveBase, MoveBaseInput};
-use super::{MoveBaseConfig, Plant};
+use super::{MoveBaseConfig, Plant, SlamKind};
 use crate::config::RobotConfig;
 use crate::geometry::{Path, Pose, Twist};
 use crate::grid::Costmap;
@@ -19,6 +19,27 @@ pub enum DriverKind {
     Navigator,
     /// A stand-in for move_base that fails as the real one does.
     MoveBase,
+}
+
+impl DriverKind {
+    /// Who drives where only the SLAM is chosen: a SLAM that errs goes with a move_base that
+    /// fails.
+    #[must_use]
+    pub const fn beside(slam: SlamKind) -> Self {
+        match slam {
+            SlamKind::Perfect => Self::Navigator,
+            SlamKind::Matched => Self::MoveBase,
+        }
+    }
+
+    /// Its name in settings.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Navigator => "navigator",
+            Self::MoveBase => "move_base",
+        }
+    }
 }
 
 /// Drives to goals.

@@ -17,7 +17,7 @@ mod plant;
 mod published;
 mod ray;
 mod robot;
-mod schedule;
+pub(crate) mod schedule;
 mod slam;
 mod world;
 

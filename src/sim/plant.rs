@@ -8,7 +8,7 @@
 //! newest map have truly seen, wherever an erring SLAM has drawn it.
 
 use super::published::Published;
-use super::schedule::{Micros, Periodic, micros, seconds};
+use super::schedule::{Micros, Periodic, seconds};
 use super::slam::{Slam, Sweep};
 use super::{
     Coverage, DiffDrive, Lidar, MapperError, Odometry, SimConfig, SimConfigError, TargetArea, World, WorldError,
@@ -238,26 +238,17 @@ impl Plant {
         &self.target
     }
 
-    /// When something happens next by itself, seconds.
-    #[must_use]
-    pub fn next_s(&self) -> f64 {
-        seconds(self.next())
-    }
-
-    /// The body holds a twist until a time in seconds; what lies before is over.
-    pub fn drive_until_s(&mut self, twist: &Twist, end_s: f64) {
-        self.drive(twist, micros(end_s));
-    }
-
-    pub(super) fn now(&self) -> Micros {
+    pub(crate) fn now(&self) -> Micros {
         self.now
     }
 
-    pub(super) fn next(&self) -> Micros {
+    /// When something happens next by itself.
+    pub(crate) fn next(&self) -> Micros {
         self.sweep.next().min(self.slam.next())
     }
 
-    pub(super) fn drive(&mut self, twist: &Twist, end: Micros) {
+    /// The body holds a twist until a time; what lies before is over.
+    pub(crate) fn drive(&mut self, twist: &Twist, end: Micros) {
         if end > self.now {
             self.body.drive(&self.world, twist, seconds(end - self.now));
             self.now = end;

@@ -4,38 +4,38 @@
 //! drift, and with it the order of things that fall together.
 
 /// Microseconds of simulated time.
-pub(super) type Micros = u64;
+pub(crate) type Micros = u64;
 
 /// Microseconds in seconds.
-pub(super) fn seconds(micros: Micros) -> f64 {
+pub(crate) fn seconds(micros: Micros) -> f64 {
     micros as f64 * 1e-6
 }
 
 /// Seconds in microseconds, at least one.
-pub(super) fn micros(seconds: f64) -> Micros {
+pub(crate) fn micros(seconds: f64) -> Micros {
     ((seconds * 1e6).round() as Micros).max(1)
 }
 
 /// Something that happens again and again, first at time 0.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Periodic {
+pub(crate) struct Periodic {
     period: Micros,
     next: Micros,
 }
 
 impl Periodic {
     /// Every so many seconds.
-    pub(super) fn every_s(period_s: f64) -> Self {
+    pub(crate) fn every_s(period_s: f64) -> Self {
         Self { period: micros(period_s), next: 0 }
     }
 
     /// When it happens next.
-    pub(super) const fn next(&self) -> Micros {
+    pub(crate) const fn next(&self) -> Micros {
         self.next
     }
 
     /// Whether it happens now; if so, the time after is set.
-    pub(super) const fn is_due(&mut self, now: Micros) -> bool {
+    pub(crate) const fn is_due(&mut self, now: Micros) -> bool {
         let due = now >= self.next;
         if due {
             self.next += self.period;

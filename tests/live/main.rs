@@ -50,6 +50,7 @@ const TESTS: &[Test] = &[
     ("a_goal_clicked_in_rviz_is_no_failure", foreign_goal),
     ("explores_inside_a_region_only", region),
     ("looks_at_the_costmap_of_move_base", costmap_of_move_base),
+    ("counts_free_area_by_the_presets_thresholds", free_area),
     ("lives_in_a_namespace_under_another_name", namespace),
     ("wrong_parameters_are_named", wrong_parameters),
     ("map_save_saves_one_map", map_save),
@@ -330,6 +331,15 @@ fn costmap_of_move_base(world: &World) {
     let mut explore = world.explore(&["_config:=northwestern", topic, "_check_with_make_plan:=true"]);
     explore.expect_code(0, DEADLINE);
     world.expect_explored(&mut sim, EXACT);
+}
+
+/// Nothing is as free as this preset wants it: the mapper is never surer than 12 %.
+fn free_area(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let _sim = world.simulate_kindly(&["_map_style:=cartographer"]);
+    let _explore = world.explore(&["_explorer:={thresholds: {free_max: 5, occupied_min: 66}}"]);
+    let seen = status.expect(SOON, "a map", |m| m.known_area_m2 > 1.0);
+    assert_eq!(seen.free_area_m2, 0.0, "of {} m2", seen.known_area_m2);
 }
 
 fn namespace(world: &World) {

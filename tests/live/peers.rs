@@ -9,7 +9,7 @@ use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
 use frontier_explorer::ros::msg::move_base_msgs::{MoveBaseActionFeedback, MoveBaseActionGoal, MoveBaseActionResult};
 use frontier_explorer::ros::msg::nav_msgs::OccupancyGrid;
 use frontier_explorer::ros::msg::std_msgs::Bool;
-use frontier_explorer::ros::{Node, start_embedded_master};
+use frontier_explorer::ros::{Feed, Node, start_embedded_master};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -38,7 +38,7 @@ fn silent_topics(world: &World) {
     let period = Duration::from_millis(200);
     let maps = Arc::new(AtomicUsize::new(0));
     let theirs = Arc::clone(&maps);
-    let _map = world.probe.listen("/latched", 1, period, move |_: OccupancyGrid, _| {
+    let _map = Feed::listen(&world.probe, "/latched", 1, period, move |_: OccupancyGrid, _| {
         theirs.fetch_add(1, Ordering::Relaxed);
     });
     let bools = Arc::new(AtomicUsize::new(0));
@@ -49,9 +49,9 @@ fn silent_topics(world: &World) {
                 theirs.fetch_add(1, Ordering::Relaxed);
             };
             if i % 2 == 0 {
-                world.probe.listen(&topic, 1, period, count)
+                Feed::listen(&world.probe, &topic, 1, period, count)
             } else {
-                world.probe.listen_seldom(&topic, 1, period, count)
+                Feed::listen_seldom(&world.probe, &topic, 1, period, count)
             }
         })
         .collect();
@@ -77,7 +77,7 @@ fn cut_connection(world: &World) {
     let fake = FakePublisher::start(&std::env::var("ROS_MASTER_URI").unwrap(), "/cut");
     let heard = Arc::new(AtomicUsize::new(0));
     let theirs = Arc::clone(&heard);
-    let _feed = world.probe.listen("/cut", 1, Duration::from_secs(1), move |_: Bool, _| {
+    let _feed = Feed::listen(&world.probe, "/cut", 1, Duration::from_secs(1), move |_: Bool, _| {
         theirs.fetch_add(1, Ordering::Relaxed);
     });
     let speaks = |more: usize| eventually(SOON, || heard.load(Ordering::Relaxed) >= more, || format!("{heard:?}"));
@@ -156,8 +156,8 @@ impl Ignorer {
             let _result = node.publish::<MoveBaseActionResult>("/move_base/result", 5).unwrap();
             let _feedback = node.publish::<MoveBaseActionFeedback>("/move_base/feedback", 5).unwrap();
             let second = Duration::from_secs(60);
-            let _goals = node.listen("/move_base/goal", 5, second, |_: MoveBaseActionGoal, _| {});
-            let _cancels = node.listen("/move_base/cancel", 5, second, |_: GoalID, _| {});
+            let _goals = Feed::listen(&node, "/move_base/goal", 5, second, |_: MoveBaseActionGoal, _| {});
+            let _cancels = Feed::listen(&node, "/move_base/cancel", 5, second, |_: GoalID, _| {});
             while !theirs.load(Ordering::Relaxed) {
                 status.send(GoalStatusArray::default()).unwrap();
                 std::thread::sleep(Duration::from_millis(200));

@@ -22,7 +22,7 @@ impl<T: rosrust::Message> Relay<T> {
         let change: Arc<Mutex<Change<T>>> = Arc::new(Mutex::new(Box::new(Some)));
         let out = node.publish::<T>(to, 100).unwrap();
         let (theirs, sender) = (Arc::clone(&change), out.clone());
-        let feed = node.listen(from, 100, Duration::from_secs(120), move |message: T, _| {
+        let feed = Feed::listen(node, from, 100, Duration::from_secs(120), move |message: T, _| {
             if let Some(message) = (theirs.lock().unwrap())(message) {
                 sender.send(message).unwrap();
             }

@@ -110,7 +110,7 @@ impl<T: rosrust::Message> Heard<T> {
     pub fn on(node: &Node, topic: &str) -> Self {
         let messages = Arc::<Mutex<Vec<T>>>::default();
         let theirs = Arc::clone(&messages);
-        let feed = node.listen(topic, 50, Duration::from_secs(120), move |message: T, _| {
+        let feed = Feed::listen(node, topic, 50, Duration::from_secs(120), move |message: T, _| {
             theirs.lock().unwrap().push(message);
         });
         Self { messages, _feed: feed }

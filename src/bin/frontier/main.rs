@@ -1,15 +1,11 @@
 //! `frontier`: exploration of maps, worlds and bags without a ROS installation.
 
 mod args;
-mod bag_file;
 mod commands;
 mod exit;
 mod inputs;
 mod output;
-mod run_folder;
-mod simulation;
 mod stop;
-mod trail;
 mod values;
 
 use clap::Parser;

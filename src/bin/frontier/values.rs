@@ -1,6 +1,7 @@
 //! Values on the command line that are more than a word or a number.
 
 use frontier_explorer::geometry::Pose;
+use frontier_explorer::sim::SlamKind;
 use std::f64::consts::TAU;
 
 /// Reads `X,Y` or `X,Y,YAW` in metres and radians.
@@ -20,6 +21,12 @@ pub fn pose(text: &str) -> Result<Pose, String> {
         return Err(format!("a yaw of {} is more than a turn: if degrees were meant, say {radians:.4}", pose.yaw));
     }
     Ok(pose)
+}
+
+/// Reads the name of a SLAM.
+pub fn slam(text: &str) -> Result<SlamKind, String> {
+    let kinds = [SlamKind::Perfect, SlamKind::Matched];
+    kinds.into_iter().find(|kind| kind.name() == text).ok_or_else(|| "must be perfect or matched".to_owned())
 }
 
 /// Reads a word of a list, without the spaces that follow a comma.

@@ -28,8 +28,9 @@ use crate::frontier::papers::states::group;
 use crate::frontier::papers::territory::{Territory, cells, with_neighbours};
 use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
 use crate::grid::{Cell, INSCRIBED_COST, LETHAL_COST, Neighbourhood, Thresholds, UNKNOWN_COST};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
 use edges::Blurred;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
@@ -39,14 +40,14 @@ const GREY: u8 = 127;
 const BLACK: u8 = 0;
 
 /// Parameters of the edges.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CannyParams {
-    /// Gradient from which a cell that continues an edge belongs to it.
+    /// Gradient from which a cell that continues an edge belongs to it, grey levels by Sobel.
     pub low_threshold: f32,
-    /// Gradient from which a cell is an edge by itself.
+    /// Gradient from which a cell is an edge by itself, grey levels by Sobel.
     pub high_threshold: f32,
-    /// Costs from here on count as blocked. The default is where the robot's centre
+    /// Costs of the costmap from here on count as blocked. The default is where the robot's centre
     /// would be in collision; with 1 the whole inflation counts, and doors narrower
     /// than twice the inflation radius are closed.
     pub blocked_cost_min: u8,
@@ -59,29 +60,37 @@ impl Default for CannyParams {
 }
 
 impl CannyParams {
-    /// Checks the numbers.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
+    /// The numbers with their ranges.
+    pub(in crate::frontier) fn numbers(&self) -> [Ranged; 3] {
         let (low, high) = (f64::from(self.low_threshold), f64::from(self.high_threshold));
-        OutOfRange::unless_positive("detector.canny.low_threshold", low)?;
-        OutOfRange::unless(
-            high.is_finite() && high >= low,
-            "detector.canny.high_threshold",
-            high,
-            "finite and >= low_threshold",
-        )?;
-        OutOfRange::unless(
-            (1..=LETHAL_COST).contains(&self.blocked_cost_min),
-            "detector.canny.blocked_cost_min",
-            f64::from(self.blocked_cost_min),
-            "within 1 to 254",
-        )
+        let costs = Range::within(1.0, f64::from(LETHAL_COST), "within 1 to 254");
+        [
+            Range::POSITIVE.of("detector.canny.low_threshold", low),
+            Range::within(low, f64::MAX, "finite and >= low_threshold").of("detector.canny.high_threshold", high),
+            costs.of("detector.canny.blocked_cost_min", f64::from(self.blocked_cost_min)),
+        ]
     }
 }
 
 /// The detector.
+///
+/// What the costmap blocks is black in the picture, and its edge is none of the unknown's:
+///
+/// ```
+/// use frontier_explorer::frontier::{Canny, DetectionInput, DetectorParams, FrontierDetector};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Costmap, INSCRIBED_COST, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii(&[".......???????"; 12].join("\n")).unwrap();
+/// let (info, mut detector) = (*grid.info(), Canny::new(DetectorParams::default()));
+/// let map_alone = DetectionInput::new(&grid, Pose::new(1.5, 6.5, 0.0));
+/// assert_eq!(detector.detect(&map_alone)?.len(), 1);
+/// // The robot's centre cannot be within two cells of the boundary.
+/// let costs = (0..info.len()).map(|index| if info.cell(index).x < 5 { 0 } else { INSCRIBED_COST }).collect();
+/// let costmap = Costmap::from_costs(info, costs).unwrap();
+/// assert_eq!(detector.detect(&DetectionInput { costmap: Some(&costmap), ..map_alone })?.len(), 0);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Canny {
     params: DetectorParams,
@@ -208,7 +217,7 @@ mod tests {
 
     #[test]
     fn thresholds_out_of_order_are_refused() {
-        let error = |params: CannyParams| params.validate().unwrap_err().to_string();
+        let error = |canny| DetectorParams { canny, ..DetectorParams::default() }.validate().unwrap_err().to_string();
         let swapped = CannyParams { low_threshold: 200.0, ..CannyParams::default() };
         assert_eq!(error(swapped), "detector.canny.high_threshold is 120: must be finite and >= low_threshold");
         let zero = CannyParams { low_threshold: 0.0, ..CannyParams::default() };

@@ -19,14 +19,15 @@
 use crate::frontier::papers::territory::{Territory, cells};
 use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
 use crate::grid::{Cell, GridInfo};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// No cluster is wider in its links than this many cells.
 const MAX_EPS_CELLS: f64 = 100.0;
 
 /// Parameters of DBSCAN.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DbscanParams {
     /// Cells whose centres are at most so far apart are neighbours, cells.
@@ -42,23 +43,38 @@ impl Default for DbscanParams {
 }
 
 impl DbscanParams {
-    /// Checks the numbers.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        let eps = self.eps_cells;
-        OutOfRange::unless(
-            (1.0..=MAX_EPS_CELLS).contains(&eps),
-            "detector.dbscan.eps_cells",
-            eps,
-            "within 1 to 100 cells",
-        )?;
-        OutOfRange::unless_positive("detector.dbscan.min_samples", f64::from(self.min_samples))
+    /// The numbers with their ranges.
+    pub(in crate::frontier) fn numbers(&self) -> [Ranged; 2] {
+        [
+            Range::within(1.0, MAX_EPS_CELLS, "within 1 to 100 cells").of("detector.dbscan.eps_cells", self.eps_cells),
+            Range::POSITIVE.of("detector.dbscan.min_samples", f64::from(self.min_samples)),
+        ]
     }
 }
 
 /// The detector.
+///
+/// A gap of one cell is noise beside an opening of seven, until two cells make a cluster:
+///
+/// ```
+/// use frontier_explorer::frontier::{Dbscan, DetectionInput, DetectorParams, FrontierDetector};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Neighbourhood, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     "#?##########???????
+///      ...................",
+/// ).unwrap();
+/// let input = DetectionInput::new(&grid, Pose::new(5.5, 0.5, 0.0));
+/// let mut params = DetectorParams { neighbours: Neighbourhood::Four, ..DetectorParams::default() };
+/// let sizes = |params| -> Result<Vec<usize>, frontier_explorer::frontier::DetectError> {
+///     Ok(Dbscan::new(params).detect(&input)?.iter().map(|frontier| frontier.cells.len()).collect())
+/// };
+/// assert_eq!(sizes(params)?, [7]);
+/// params.dbscan.min_samples = 1;
+/// assert_eq!(sizes(params)?, [1, 7]);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Dbscan {
     params: DetectorParams,

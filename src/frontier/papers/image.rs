@@ -26,14 +26,15 @@ use crate::frontier::papers::territory::{Territory, components, with_neighbours}
 use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, order};
 use crate::geometry::{Circle, Point};
 use crate::grid::{Cell, GridInfo, Neighbourhood};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Half of B in cells, where the resolution would ask for more: what a byte counts.
 const MAX_HALF_CELLS: f64 = 254.0;
 
 /// Parameters of the image processing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImageParams {
     /// Side of the square structuring element B, metres.
@@ -47,13 +48,9 @@ impl Default for ImageParams {
 }
 
 impl ImageParams {
-    /// Checks the numbers.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        let side = self.element_m;
-        OutOfRange::unless((0.0..=5.0).contains(&side), "detector.image.element_m", side, "within 0 to 5 m")
+    /// The numbers with their ranges.
+    pub(in crate::frontier) fn numbers(&self) -> [Ranged; 1] {
+        [Range::within(0.0, 5.0, "within 0 to 5 m").of("detector.image.element_m", self.element_m)]
     }
 
     /// How far B reaches to each side of its centre, cells.
@@ -63,6 +60,27 @@ impl ImageParams {
 }
 
 /// The detector.
+///
+/// Each frontier comes with the circle that [`RadiusDistance`](crate::selection::RadiusDistance)
+/// weighs. B is one cell here; of a boundary the cells on its right or upper side count:
+///
+/// ```
+/// use frontier_explorer::frontier::{CellSide, DetectionInput, DetectorParams, FrontierDetector, ImageDetector};
+/// use frontier_explorer::geometry::{Point, Pose};
+/// use frontier_explorer::grid::OccupancyGrid;
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     "...??
+///      ...??
+///      ...??",
+/// ).unwrap();
+/// let input = DetectionInput::new(&grid, Pose::new(0.5, 1.5, 0.0));
+/// let found = ImageDetector::new(DetectorParams::default()).detect(&input)?;
+/// let circle = found[0].circle.unwrap();
+/// assert_eq!((found.len(), found[0].cells.len(), found[0].side), (1, 3, CellSide::Either));
+/// assert_eq!((circle.center, circle.radius_m), (Point::new(3.5, 1.5), 1.0));
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ImageDetector {
     params: DetectorParams,

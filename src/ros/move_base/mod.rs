@@ -2,11 +2,10 @@
 //! back.
 
 mod planner;
-mod tracker;
 
 pub use planner::AskingPlanner;
-pub use tracker::{GoalStatus, GoalTracker};
 
+use super::actionlib::{GoalStatus, GoalTracker};
 use super::bell::Bell;
 use super::call::call;
 use super::convert;
@@ -58,7 +57,7 @@ impl MoveBase {
         let tracker = Arc::<Mutex<GoalTracker>>::default();
         let topic = |name: &str| format!("{server}/{name}");
         let (theirs, owner) = (Arc::clone(&tracker), node.clone());
-        let status = node.listen(&topic("status"), 10, SILENCE, move |message: GoalStatusArray, _| {
+        let status = Feed::listen(node, &topic("status"), 10, SILENCE, move |message: GoalStatusArray, _| {
             let goals = message
                 .status_list
                 .iter()
@@ -66,12 +65,12 @@ impl MoveBase {
             lock(&theirs).on_status(goals, owner.wall_s());
         });
         let (theirs, bell) = (Arc::clone(&tracker), Arc::clone(bell));
-        let result = node.listen_seldom(&topic("result"), 10, LOOK, move |message: MoveBaseActionResult, _| {
+        let result = Feed::listen_seldom(node, &topic("result"), 10, LOOK, move |message: MoveBaseActionResult, _| {
             let status = &message.status;
             lock(&theirs).on_result(&status.goal_id.id, GoalStatus::from_number(status.status), &status.text);
             bell.ring();
         });
-        let feedback = node.listen_seldom(&topic("feedback"), 5, LOOK, |_: MoveBaseActionFeedback, _| {});
+        let feedback = Feed::listen_seldom(node, &topic("feedback"), 5, LOOK, |_: MoveBaseActionFeedback, _| {});
         Ok(Self {
             goals: node.publish(&topic("goal"), 5)?,
             cancels: node.publish(&topic("cancel"), 5)?,

@@ -4,6 +4,7 @@ use crate::config::{RobotConfig, builtin_robot};
 use crate::geometry::{Point, Pose, Twist, shortest_angle};
 use crate::grid::{Cell, Costmap, GridInfo, INSCRIBED_COST, OccupancyGrid, Thresholds};
 use crate::robot::NavigationState;
+use crate::sim::schedule::micros;
 use crate::sim::{InflatedPlanner, MoveBase, MoveBaseConfig, MoveBaseInput, Plant, SimConfig, World};
 use std::sync::Arc;
 
@@ -56,10 +57,9 @@ impl Rig {
         if self.is_stuck {
             twist.linear_mps = 0.0;
         }
-        let end_s = self.plant.now_s() + DT_S;
-        while self.plant.now_s() < end_s - 1e-7 {
-            let next_s = self.plant.next_s().min(end_s);
-            self.plant.drive_until_s(&twist, next_s);
+        let end = micros(self.plant.now_s() + DT_S);
+        while self.plant.now() < end {
+            self.plant.drive(&twist, self.plant.next().min(end));
             self.plant.sense().unwrap();
         }
         (twist, navigation.state)

@@ -3,6 +3,7 @@
 use crate::config::{RobotConfig, builtin_robot};
 use crate::geometry::{Pose, Twist, shortest_angle};
 use crate::grid::{Cell, GridInfo, OccupancyGrid, Thresholds};
+use crate::sim::schedule::micros;
 use crate::sim::{Plant, SimConfig, SlamConfig, SlamKind, World};
 use std::sync::Arc;
 
@@ -37,10 +38,9 @@ fn plant_with(kind: SlamKind, seed: u64, lidar_noise_std_m: Option<f64>) -> Plan
 
 /// Drives for a while and looks at the plant whenever something has sensed.
 fn drive(plant: &mut Plant, twist: &Twist, duration_s: f64, mut look: impl FnMut(&Plant, bool)) {
-    let end_s = plant.now_s() + duration_s;
-    while plant.now_s() < end_s {
-        let next_s = plant.next_s().min(end_s);
-        plant.drive_until_s(twist, next_s);
+    let end = micros(plant.now_s() + duration_s);
+    while plant.now() < end {
+        plant.drive(twist, plant.next().min(end));
         let sensed = plant.sense().unwrap();
         look(plant, sensed.map);
     }

@@ -2,12 +2,12 @@
 //! who have no ROS. Whoever has it can look in with rostopic, RViz and the like.
 
 use crate::exit::Outcome;
-use crate::simulation::parse_slam;
-use crate::{inputs, output};
+use crate::{inputs, output, values};
 use anyhow::{Context, anyhow, bail};
-use frontier_explorer::io::load_world;
-use frontier_explorer::ros::{Node, explore_with, simulate_with, start_embedded_master, stop};
-use frontier_explorer::sim::SlamKind;
+use frontier_explorer::io::{load_preset, load_robot, load_world};
+use frontier_explorer::nodes::{explore_with, simulate_with};
+use frontier_explorer::ros::{Node, start_embedded_master, stop};
+use frontier_explorer::sim::{DriverKind, SlamKind};
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -31,7 +31,7 @@ pub struct Args {
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]
     robot: String,
     /// matched: a SLAM and a move_base that err as the real ones; or perfect.
-    #[arg(long, value_name = "SLAM", default_value = "matched", value_parser = parse_slam)]
+    #[arg(long, value_name = "SLAM", default_value = "matched", value_parser = values::slam)]
     slam: SlamKind,
     /// Simulated seconds a real second.
     #[arg(long, default_value_t = 10.0)]
@@ -50,8 +50,8 @@ pub struct Args {
 /// Runs `frontier demo`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     // What is wrong is said before anything begins.
-    inputs::preset(&args.config)?;
-    inputs::robot(&args.robot)?;
+    load_preset(&args.config)?;
+    load_robot(&args.robot)?;
     load_world(&args.world)?;
     let Ok(port) = std::env::var(READY) else { return begin_anew(args.port) };
     let port = port.parse().with_context(|| format!("{READY} is {port:?}: must be a port"))?;
@@ -110,8 +110,7 @@ fn set_params(setup: &Node, args: &Args) -> anyhow::Result<()> {
     setup.set_param("/sim/config", &args.config)?;
     setup.set_param("/sim/speed", &args.speed)?;
     setup.set_param("/sim/slam", &args.slam.name())?;
-    let driver = if args.slam == SlamKind::Perfect { "navigator" } else { "move_base" };
-    setup.set_param("/sim/driver", &driver)?;
+    setup.set_param("/sim/driver", &DriverKind::beside(args.slam).name())?;
     setup.set_param("/explore/config", &args.config)?;
     setup.set_param("/explore/robot", &args.robot)?;
     setup.set_param("/explore/exit_when_done", &!args.stay)?;

@@ -1,14 +1,14 @@
 //! `frontier detect`: the frontiers of a map as seen from a pose.
 
 use crate::exit::Outcome;
-use crate::{inputs, output, values};
+use crate::{output, values};
 use anyhow::Context;
 use comfy_table::Table;
 use frontier_explorer::explore::Position;
 use frontier_explorer::frontier::{DetectionInput, DetectorKind, Frontier, Reachability};
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::{Costmap, GridInfo, Neighbourhood};
-use frontier_explorer::io::{load_map, write_atomic};
+use frontier_explorer::io::{load_map, load_preset, load_robot, write_atomic};
 use frontier_explorer::report::{Overlay, OverlayFrontier, Theme};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -108,7 +108,7 @@ struct Row {
 
 /// Runs `frontier detect`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
-    let mut settings = inputs::preset(&args.config)?.explorer;
+    let mut settings = load_preset(&args.config)?.explorer;
     let detector = &mut settings.detector;
     detector.name = args.detector.unwrap_or(detector.name);
     detector.reachability = args.reachability.unwrap_or(detector.reachability);
@@ -116,7 +116,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     detector.min_size_m = args.min_size.unwrap_or(detector.min_size_m);
     settings.validate()?;
     let grid = load_map(&args.map)?.grid;
-    let costmap = Costmap::inflate(&grid, &settings.thresholds, &inputs::robot(&args.robot)?.inflation());
+    let costmap = Costmap::inflate(&grid, &settings.thresholds, &load_robot(&args.robot)?.inflation());
     let mut detector = settings.detector.name.build(&settings.detector_params());
     let frontiers = detector
         .detect(&DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(&grid, args.at) })

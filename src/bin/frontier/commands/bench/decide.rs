@@ -2,14 +2,14 @@
 
 use super::timing::Times;
 use crate::exit::Outcome;
-use crate::{inputs, output, values};
+use crate::{output, values};
 use anyhow::{Context, bail};
 use comfy_table::Table;
 use frontier_explorer::config::{Preset, RobotConfig};
 use frontier_explorer::explore::Explorer;
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::OccupancyGrid;
-use frontier_explorer::io::load_map;
+use frontier_explorer::io::{load_map, load_preset, load_robot};
 use frontier_explorer::robot::{MapSnapshot, Navigation, NavigationState, Observation};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -50,14 +50,14 @@ struct Timing {
 /// Runs `frontier bench decide`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let grid = Arc::new(load_map(&args.map)?.grid);
-    let robot = inputs::robot(&args.robot)?;
+    let robot = load_robot(&args.robot)?;
     let names: Vec<String> = match args.config.as_str() {
         "all" => Preset::names().map(str::to_owned).collect(),
         name => vec![name.to_owned()],
     };
     let mut timings = Vec::new();
     for name in names {
-        let preset = inputs::preset(&name)?;
+        let preset = load_preset(&name)?;
         timings.push(time_decisions(args, &preset, &robot, &grid).with_context(|| format!("preset {name}"))?);
     }
     if args.json {

@@ -2,13 +2,13 @@
 
 use super::timing::Times;
 use crate::exit::Outcome;
-use crate::{inputs, output, values};
+use crate::{output, values};
 use anyhow::{Context, bail};
 use comfy_table::{CellAlignment, Table};
 use frontier_explorer::frontier::{DetectionInput, DetectorKind};
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::grid::Costmap;
-use frontier_explorer::io::load_map;
+use frontier_explorer::io::{load_map, load_preset, load_robot};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -61,10 +61,10 @@ struct Timing {
 /// Runs `frontier bench detect`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let kinds = detectors(&args.detector)?;
-    let settings = inputs::preset(&args.config)?.explorer;
+    let settings = load_preset(&args.config)?.explorer;
     let params = settings.detector_params();
     let grid = load_map(&args.map)?.grid;
-    let costmap = Costmap::inflate(&grid, &settings.thresholds, &inputs::robot(&args.robot)?.inflation());
+    let costmap = Costmap::inflate(&grid, &settings.thresholds, &load_robot(&args.robot)?.inflation());
     let input = DetectionInput { costmap: Some(&costmap), ..DetectionInput::new(&grid, args.at) };
     let byte_sum = Times::measure(args.runs, || grid.data().iter().map(|&value| i64::from(value)).sum::<i64>());
     let mut timings = Vec::new();

@@ -1,27 +1,22 @@
 //! `frontier compare`: every preset in every world from every start with every seed.
 
 mod progress;
-mod runner;
 mod shard;
 mod starts;
 mod tables;
-mod worlds;
 
-use super::explore::robot_help;
 use crate::exit::Outcome;
-use crate::simulation::parse_slam;
 use crate::{inputs, output, stop, values};
-use anyhow::{Context, bail};
-use frontier_explorer::config::{Preset, RobotConfig};
-use frontier_explorer::io::{BUILT_IN_WORLDS, write_atomic};
-use frontier_explorer::report::{ComparedPreset, Comparison, ComparisonPlan};
+use anyhow::Context;
+use frontier_explorer::config::Preset;
+use frontier_explorer::io::{BUILT_IN_WORLDS, load_preset, load_robot, write_atomic};
+use frontier_explorer::report::Comparison;
+use frontier_explorer::run::comparison::{Runner, Starts};
 use frontier_explorer::sim::SlamKind;
 use progress::Progress;
-use runner::Runner;
 use shard::Shard;
-use starts::Starts;
+use starts::StartsArg;
 use std::path::{Path, PathBuf};
-use worlds::LoadedWorld;
 
 /// Arguments of `frontier compare`.
 #[derive(Debug, clap::Args)]
@@ -36,16 +31,16 @@ pub struct Args {
     /// spots far from each other. When left out: three places in each built-in world,
     /// the most open spot of any other.
     #[arg(long, value_name = "FILE.csv|auto:N", value_parser = starts::parse)]
-    starts: Option<Starts>,
+    starts: Option<StartsArg>,
     /// Seeds: each decides every random number of a run.
     #[arg(long, value_name = "SEED,...", value_delimiter = ',', default_value = "1")]
     seeds: Vec<u64>,
     /// The robot: a YAML file, or the name of a built-in robot.
-    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = inputs::robot_help())]
     robot: String,
     /// perfect: the true pose and a map without errors, driven by our own navigator; or
     /// matched: a SLAM that errs and a stand-in for move_base, as in `frontier explore`.
-    #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = parse_slam)]
+    #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = values::slam)]
     slam: SlamKind,
     /// End each run after this time of the simulation, seconds; it has then failed.
     #[arg(long, value_name = "S", value_parser = values::positive_seconds, allow_negative_numbers = true, default_value = "7200")]
@@ -100,81 +95,30 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
 
 /// Makes the runs of a part; also tells how many they should be.
 fn compare(args: &Args) -> anyhow::Result<(Comparison, usize)> {
-    let robot = inputs::robot(&args.robot)?;
+    let robot = load_robot(&args.robot)?;
     robot.validate().with_context(|| format!("robot {}", robot.name))?;
     let presets = presets(args)?;
-    let starts = args.starts.as_ref().map_or_else(|| Ok(starts::Table::default()), starts::Table::of)?;
-    let worlds = worlds::load(&args.worlds, &starts, &robot)?;
-    let plan = plan(args, &robot, &presets, &worlds)?;
+    let starts = args.starts.as_ref().map_or_else(|| Ok(Starts::default()), StartsArg::load)?;
+    let runner = Runner::new(presets, robot, &args.worlds, &starts, args.slam, args.time_limit)?;
+    let plan = runner.plan(&args.seeds)?;
     let runs: Vec<_> = plan.runs().into_iter().filter(|run| args.shard.holds(run.index)).collect();
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(args.jobs.map_or(0, std::num::NonZeroUsize::get))
-        .build()
-        .context("cannot start threads for the runs")?;
     let progress = Progress::new(args.quiet, runs.len());
-    let runner = Runner {
-        presets: &presets,
-        robot: &robot,
-        worlds: &worlds,
-        slam: args.slam,
-        stop: stop::flag()?,
-        progress: &progress,
-    };
-    let made = pool.install(|| runner.make(&runs));
+    let made = runner.make(&runs, args.jobs, &stop::flag()?, |run| progress.made(run));
     progress.finish();
     Ok((Comparison { plan, runs: made? }, runs.len()))
 }
 
-/// The presets with the time limit; names must tell them apart.
+/// The presets by their names.
 fn presets(args: &Args) -> anyhow::Result<Vec<Preset>> {
     let mut presets: Vec<Preset> = Vec::new();
     for name in &args.presets {
         if name == "all" {
             presets.extend(Preset::names().map(Preset::built_in).collect::<Result<Vec<_>, _>>()?);
         } else {
-            presets.push(inputs::preset(name)?);
+            presets.push(load_preset(name)?);
         }
     }
-    for preset in &mut presets {
-        preset.explorer.patience.time_limit_s = Some(args.time_limit);
-    }
-    unique("preset", presets.iter().map(|preset| preset.preset.as_str()))?;
     Ok(presets)
-}
-
-/// Refuses names that are given twice: tables could not tell them apart.
-fn unique<'a>(what: &str, names: impl Iterator<Item = &'a str>) -> anyhow::Result<()> {
-    let mut seen = std::collections::BTreeSet::new();
-    for name in names {
-        if !seen.insert(name) {
-            bail!("there are two {what}s with the name {name:?}: each must have its own");
-        }
-    }
-    Ok(())
-}
-
-fn plan(
-    args: &Args,
-    robot: &RobotConfig,
-    presets: &[Preset],
-    worlds: &[LoadedWorld],
-) -> anyhow::Result<ComparisonPlan> {
-    let mut seen = std::collections::BTreeSet::new();
-    if let Some(seed) = args.seeds.iter().find(|seed| !seen.insert(**seed)) {
-        bail!("the seed {seed} is given twice: each must be another one");
-    }
-    let compared = |preset: &Preset| {
-        let settings = serde_json::to_value(preset).context("cannot write the preset as JSON")?;
-        Ok(ComparedPreset { name: preset.preset.clone(), settings })
-    };
-    Ok(ComparisonPlan {
-        robot: robot.name.clone(),
-        slam: args.slam.told(),
-        time_limit_s: Some(args.time_limit),
-        presets: presets.iter().map(compared).collect::<anyhow::Result<_>>()?,
-        worlds: worlds.iter().map(|world| world.compared.clone()).collect(),
-        seeds: args.seeds.clone(),
-    })
 }
 
 /// Reads parts and puts them together.

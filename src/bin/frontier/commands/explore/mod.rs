@@ -1,24 +1,20 @@
 //! `frontier explore`: a simulated robot that knows nothing explores a world.
 
 mod progress;
-pub mod recorder;
-mod recording;
 
 use crate::exit::Outcome;
-use crate::run_folder::RunFolder;
-use crate::simulation::{NamedWorld, Plan, parse_slam};
 use crate::{inputs, output, stop, values};
 use anyhow::Context;
-use frontier_explorer::config::{Preset, RobotConfig};
+use frontier_explorer::config::{Explained, Preset, RobotConfig};
 use frontier_explorer::explore::{End, run as explore};
 use frontier_explorer::geometry::Pose;
-use frontier_explorer::io::load_world;
+use frontier_explorer::io::{load_preset, load_robot, load_world};
 use frontier_explorer::report::RunRecord;
-use frontier_explorer::sim::{MapStyle, SlamKind};
+use frontier_explorer::run::record::{RunFolder, SimBag, SimRecorder};
+use frontier_explorer::run::{NamedWorld, Plan};
+use frontier_explorer::sim::{DriverKind, MapStyle, SlamKind};
 use progress::Progress;
-use recorder::Recorder;
-use recording::Recording;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Arguments of `frontier explore`.
@@ -31,7 +27,7 @@ pub struct Args {
     #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
-    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = robot_help())]
+    #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = inputs::robot_help())]
     robot: String,
     /// Where the robot begins: X,Y or X,Y,YAW in metres and radians. The most open spot
     /// when left out.
@@ -49,7 +45,7 @@ pub struct Args {
     /// perfect: the true pose and a map without errors, driven by our own navigator; or
     /// matched: odometry that slips, a map by scan matching, and a stand-in for move_base
     /// that refuses and fails as the real one does.
-    #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = parse_slam)]
+    #[arg(long, value_name = "SLAM", default_value = "perfect", value_parser = values::slam)]
     slam: SlamKind,
     /// Decides every random number of the run.
     #[arg(long, default_value_t = 1, allow_negative_numbers = true)]
@@ -66,16 +62,12 @@ pub struct Args {
     /// Record the run in a bag: map, transforms, scans, odometry, goals and results.
     #[arg(long, value_name = "BAG")]
     bag: Option<PathBuf>,
-    /// Print the whole configuration, defaults included, and do nothing.
+    /// Print the whole configuration, defaults included, each setting explained, and do nothing.
     #[arg(long)]
     print_config: bool,
     /// Print nothing but errors.
     #[arg(long, short)]
     quiet: bool,
-}
-
-pub fn robot_help() -> String {
-    format!("The robot: a YAML file, or one of the built-in robots: {}", inputs::robot_names())
 }
 
 fn parse_style(text: &str) -> Result<MapStyle, String> {
@@ -90,8 +82,7 @@ fn parse_style(text: &str) -> Result<MapStyle, String> {
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let (preset, robot) = (configured_preset(args)?, configured_robot(args)?);
     if args.print_config {
-        let text = serde_saphyr::to_string(&preset).context("cannot write the configuration as YAML")?;
-        output::line(format_args!("{}", text.trim_end()))?;
+        output::line(format_args!("{}", Explained::preset(&preset)?.yaml().trim_end()))?;
         return Ok(Outcome::Done);
     }
     let began = Instant::now();
@@ -106,32 +97,31 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         seed: args.seed,
         map_style: args.map_style,
         lidar_noise_std_m: args.lidar_noise,
+        odometry_noise: None,
         slam: args.slam,
+        driver: DriverKind::beside(args.slam),
     };
     let (mut sim, mut explorer) = plan.prepare()?;
     // The folder is made before the run: nobody waits for a map that cannot be saved.
     let folder = RunFolder::create(&args.out, "exploration.gif")?;
     let progress = Progress::new(args.quiet, &plan.world.name, &plan.preset.preset);
-    let mut recorder = Recorder::new(progress, stop::flag()?);
-    if let Some(path) = &args.bag {
-        let lidar = &plan.robot.lidar;
-        recorder.bag = Some(Recording::create(path, lidar.mount, 1.0 / lidar.rate_hz)?);
-    }
-    let end = explore(&mut sim, &mut explorer, &mut recorder);
+    let stop = stop::flag()?;
+    let bag = args.bag.as_ref().map(|path| SimBag::create(path, &plan.robot.lidar)).transpose()?;
+    let mut watchers = (SimRecorder::new(stop, bag), progress);
+    let end = explore(&mut sim, &mut explorer, &mut watchers);
+    let (mut recorder, mut progress) = watchers;
     let record = recorder.record(&plan, &sim, &explorer, &end, began.elapsed().as_secs_f64());
-    folder.write(&record, &recorder.trail, sim.map(), Some(sim.pose_in_map()), &plan.preset.explorer, None)?;
-    if let Some(bag) = &mut recorder.bag {
-        bag.finish()?;
-    }
+    progress.finish(&sim.stats());
+    let files = recorder.save(&folder, &record, &plan, &sim)?;
     if !args.quiet {
-        summarize(&record, &folder, args.bag.as_deref())?;
+        summarize(&record, files.iter().chain(&args.bag))?;
     }
     Ok(outcome(&end))
 }
 
 /// The preset with what the command line overrides.
 fn configured_preset(args: &Args) -> anyhow::Result<Preset> {
-    let mut preset = inputs::preset(&args.config)?;
+    let mut preset = load_preset(&args.config)?;
     preset.explorer.return_to_start |= args.return_to_start;
     if args.time_limit.is_some() {
         preset.explorer.patience.time_limit_s = args.time_limit;
@@ -141,7 +131,7 @@ fn configured_preset(args: &Args) -> anyhow::Result<Preset> {
 
 /// The robot with what the command line overrides.
 fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
-    let mut robot = inputs::robot(&args.robot)?;
+    let mut robot = load_robot(&args.robot)?;
     if let Some(range_m) = args.lidar_range {
         robot.lidar.range_max_m = range_m;
     }
@@ -150,7 +140,7 @@ fn configured_robot(args: &Args) -> anyhow::Result<RobotConfig> {
 }
 
 /// What the user reads when all is saved.
-fn summarize(record: &RunRecord, folder: &RunFolder, bag: Option<&Path>) -> anyhow::Result<()> {
+fn summarize<'a>(record: &RunRecord, files: impl Iterator<Item = &'a PathBuf>) -> anyhow::Result<()> {
     output::line(format_args!(
         "{}: {}; {:.1} % of the reachable area after {:.0} s and {:.1} m, {} goals, {} failed",
         record.end_reason.name(),
@@ -163,7 +153,7 @@ fn summarize(record: &RunRecord, folder: &RunFolder, bag: Option<&Path>) -> anyh
     ))?;
     let speed = record.sim_time_s / record.wall.total_s.max(1e-9);
     output::line(format_args!("simulated in {:.1} s, {speed:.0} times as fast as real time", record.wall.total_s))?;
-    for file in folder.files().chain(bag.map(Path::to_owned)) {
+    for file in files {
         output::line(format_args!("  {}", file.display()))?;
     }
     Ok(())

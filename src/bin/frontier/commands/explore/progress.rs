@@ -1,6 +1,8 @@
 //! The progress of a run: a bar in a terminal, plain lines elsewhere.
 
-use frontier_explorer::sim::SimStats;
+use frontier_explorer::explore::{Decision, Explorer, Watcher};
+use frontier_explorer::robot::Observation;
+use frontier_explorer::sim::{SimRobot, SimStats};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
@@ -41,7 +43,7 @@ impl Progress {
     }
 
     /// Shows the state of the run.
-    pub fn show(&mut self, stats: &SimStats) {
+    fn show(&mut self, stats: &SimStats) {
         match self {
             Self::Quiet => {}
             Self::Bar(bar) => {
@@ -59,7 +61,7 @@ impl Progress {
     }
 
     /// Tells what happened, above the bar.
-    pub fn tell(&self, time_s: f64, text: &str) {
+    fn tell(&self, time_s: f64, text: &str) {
         let line = format!("at {time_s:.0} s: {text}");
         match self {
             Self::Quiet => {}
@@ -80,6 +82,15 @@ impl Progress {
                 self.show(stats);
             }
         }
+    }
+}
+
+impl Watcher<SimRobot> for Progress {
+    fn after_step(&mut self, sim: &SimRobot, _: &Explorer, observation: &Observation, decision: &Decision) {
+        if let Some(text) = &decision.notice {
+            self.tell(observation.stamp_s, text);
+        }
+        self.show(&sim.stats());
     }
 }
 

@@ -3,7 +3,6 @@
 use crate::output;
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::replay::{Agreement, Parting};
-use frontier_explorer::report::{Beside, BesideRow};
 
 /// So many partings are printed.
 const PRINTED: usize = 5;
@@ -29,7 +28,7 @@ pub fn print(agreement: &Agreement) -> anyhow::Result<()> {
     }
     for parting in agreement.partings.iter().take(PRINTED) {
         let Parting { time_s, our_goal, recorded_goal, .. } = parting;
-        let cause = with_detail(parting);
+        let cause = parting.full_cause();
         output::line(format_args!(
             "  at {:.1} s we {}, it {}: {cause}",
             time_s,
@@ -42,31 +41,6 @@ pub fn print(agreement: &Agreement) -> anyhow::Result<()> {
         output::line(format_args!("  and {more} more in comparison.json"))?;
     }
     Ok(())
-}
-
-/// The same for the page.
-pub fn beside(agreement: &Agreement) -> Beside {
-    let point = |goal: &Option<Pose>| goal.as_ref().map(|goal| [goal.x, goal.y]);
-    let row = |parting: &Parting| BesideRow {
-        time_s: parting.time_s,
-        ours: point(&parting.our_goal),
-        recorded: point(&parting.recorded_goal),
-        cause: with_detail(parting),
-    };
-    Beside {
-        recorded_goals: agreement.recorded_goals.len(),
-        at_frontiers: agreement.at_frontiers(),
-        decisions: agreement.decisions,
-        agreeing: agreement.agreeing,
-        causes: agreement.causes.iter().map(|(cause, count)| (cause.clone(), *count)).collect(),
-        partings: agreement.partings.iter().map(row).collect(),
-    }
-}
-
-/// The cause of a parting with the figures behind it.
-fn with_detail(parting: &Parting) -> String {
-    let Parting { cause, detail, .. } = parting;
-    if detail.is_empty() { cause.clone() } else { format!("{cause} ({detail})") }
 }
 
 fn place(goal: Option<&Pose>) -> String {

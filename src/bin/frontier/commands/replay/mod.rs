@@ -1,22 +1,20 @@
 //! `frontier replay`: the explorer over a recording, and what it would have decided.
 
 mod comparison;
-mod out_bag;
-mod recorder;
 
 use super::bag;
 use crate::exit::Outcome;
-use crate::run_folder::RunFolder;
-use crate::{inputs, output, values};
+use crate::{inputs, output, stop, values};
 use anyhow::bail;
 use frontier_explorer::bag::Summary;
 use frontier_explorer::explore::{EndReason, Explorer, run as explore};
+use frontier_explorer::io::{load_preset, load_robot};
 use frontier_explorer::mapping::BuilderConfig;
 use frontier_explorer::replay::{BagRobot, Inputs, Player, Wanted};
-use frontier_explorer::report::{FrameLog, RunRecord};
-use out_bag::OutBag;
-use recorder::Recorder;
-use std::path::{Path, PathBuf};
+use frontier_explorer::report::RunRecord;
+use frontier_explorer::run::Pace;
+use frontier_explorer::run::record::{OutBag, ReplayRecorder, RunFolder};
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Arguments of `frontier replay`.
@@ -77,7 +75,7 @@ fn positive(text: &str) -> Result<f64, String> {
 /// Runs `frontier replay`.
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let began = Instant::now();
-    let (preset, robot_config) = (inputs::preset(&args.config)?, inputs::robot(&args.robot)?);
+    let (preset, robot_config) = (load_preset(&args.config)?, load_robot(&args.robot)?);
     let summary = bag::summary(&args.bag)?;
     let wanted = Wanted {
         map_topic: args.map_topic.clone(),
@@ -101,22 +99,19 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         config.mapper.resolution_m = args.resolution;
         player.map_scans(config, &summary);
     }
-    let out_bag = match &args.out_bag {
-        Some(path) => Some(OutBag::create(path, &found, summary.start)?),
-        None => None,
-    };
+    let out_bag = args.out_bag.as_ref().map(|path| OutBag::create(path, &found, summary.start)).transpose()?;
     if let Some(out_bag) = &out_bag {
         player.set_tap(out_bag.tap());
     }
     let mut robot = BagRobot::new(player, &summary, args.until);
     let mut explorer = Explorer::new(preset.explorer.clone(), &robot_config.traits())?;
-    let mut recorder = Recorder::new(&preset.explorer, &robot_config, args, out_bag)?;
-    let end = explore(&mut robot, &mut explorer, &mut recorder);
-    let name = args.bag.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let names = (name, preset.preset.clone(), robot_config.name);
-    let record = recorder.record(names, &robot, &explorer, &end, began.elapsed().as_secs_f64());
-    let files = save(&folder, &record, &recorder, &robot, &preset.explorer)?;
-    recorder.finish()?;
+    let recorder = ReplayRecorder::new(&preset, &robot_config, folder, &args.at, out_bag, stop::flag()?);
+    let mut watchers = (recorder, Pace::new(args.rate));
+    let end = explore(&mut robot, &mut explorer, &mut watchers);
+    let (mut recorder, _) = watchers;
+    let name = args.bag.file_name().unwrap_or_default().to_string_lossy();
+    let record = recorder.record(&name, &robot, &explorer, &end, began.elapsed().as_secs_f64());
+    let files = recorder.save(&record, &robot)?;
     if !args.quiet {
         report(args, &record, &recorder, &robot, &files)?;
     }
@@ -144,33 +139,10 @@ fn tell(args: &Args, summary: &Summary, found: &Inputs) -> anyhow::Result<()> {
     found.verdict(summary).sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
 }
 
-/// Writes the results; without a map there is only what was decided.
-fn save(
-    folder: &RunFolder,
-    record: &RunRecord,
-    recorder: &Recorder<'_>,
-    robot: &BagRobot,
-    settings: &frontier_explorer::explore::ExplorerSettings,
-) -> anyhow::Result<Vec<PathBuf>> {
-    let comparison = "comparison.json";
-    folder.save(comparison, &serde_json::to_vec_pretty(&recorder.agreement)?)?;
-    match robot.player().grid() {
-        Some(grid) => {
-            let beside = comparison::beside(&recorder.agreement);
-            let written = folder.write(record, &recorder.trail, grid, robot.pose(), settings, Some(&beside))?;
-            Ok(written.into_iter().chain([folder.path(comparison)]).collect())
-        }
-        None => {
-            folder.save("run.json", &record.to_json()?)?;
-            Ok(vec![folder.path("run.json"), folder.path(comparison)])
-        }
-    }
-}
-
 fn report(
     args: &Args,
     record: &RunRecord,
-    recorder: &Recorder<'_>,
+    recorder: &ReplayRecorder<'_>,
     robot: &BagRobot,
     files: &[PathBuf],
 ) -> anyhow::Result<()> {
@@ -185,7 +157,7 @@ fn report(
     ))?;
     if !robot.has_begun() {
         output::line(format_args!("warning: there was never a map with the robot's place in it: nothing was decided"))?;
-    } else if recorder.trail.frames.as_ref().is_none_or(FrameLog::is_empty) {
+    } else if !recorder.has_frames() {
         output::line(format_args!("warning: no moment had a map to show: there is no animation"))?;
     }
     for at_s in recorder.not_reached() {
@@ -194,7 +166,7 @@ fn report(
             robot.now_s()
         ))?;
     }
-    comparison::print(&recorder.agreement)?;
+    comparison::print(recorder.agreement())?;
     super::map::tell_scans(robot.player())?;
     for sentence in robot.player().faults().sentences() {
         output::line(format_args!("warning: {sentence}"))?;
@@ -204,8 +176,7 @@ fn report(
         record.wall.total_s,
         record.sim_time_s / record.wall.total_s.max(1e-9)
     ))?;
-    let also: Vec<&Path> = recorder.pictures.iter().map(PathBuf::as_path).chain(args.out_bag.as_deref()).collect();
-    for file in files.iter().map(PathBuf::as_path).chain(also) {
+    for file in files.iter().chain(&args.out_bag) {
         output::line(format_args!("  {}", file.display()))?;
     }
     Ok(())

@@ -1,0 +1,176 @@
+//! Looks on while the node explores: shows every decision and keeps the figures of the
+//! status.
+
+use super::controls::Controls;
+use super::outputs::Outputs;
+use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
+use crate::geometry::Pose;
+use crate::grid::{LiveCensus, Thresholds};
+use crate::robot::Observation;
+use crate::ros::display::{StatusInput, status};
+use crate::ros::log::Level;
+use crate::ros::msg::frontier_explorer::ExplorationStatus;
+use crate::ros::{Node, RosRobot};
+
+/// Steps shorter than this are noise of the localisation, metres.
+const STEP_M: f64 = 0.02;
+
+/// The watcher of one run.
+pub struct NodeWatcher<'a> {
+    node: &'a Node,
+    outputs: &'a Outputs,
+    controls: &'a Controls,
+    began_s: Option<f64>,
+    now_s: f64,
+    last_pose: Option<Pose>,
+    distance_m: f64,
+    census: LiveCensus,
+    known_area_m2: f64,
+    free_area_m2: f64,
+    frontiers: usize,
+    frame: String,
+    message: String,
+    region_shown: bool,
+    last_goal: Option<Pose>,
+    /// Goals that were really sent.
+    goals_sent: usize,
+}
+
+impl<'a> NodeWatcher<'a> {
+    /// A watcher of a run that begins now; areas are counted by these thresholds.
+    pub fn new(node: &'a Node, outputs: &'a Outputs, controls: &'a Controls, thresholds: Thresholds) -> Self {
+        Self {
+            node,
+            outputs,
+            controls,
+            began_s: None,
+            now_s: 0.0,
+            last_pose: None,
+            distance_m: 0.0,
+            census: LiveCensus::new(thresholds),
+            known_area_m2: 0.0,
+            free_area_m2: 0.0,
+            frontiers: 0,
+            frame: "map".to_owned(),
+            message: "waiting for the first map".to_owned(),
+            region_shown: false,
+            last_goal: None,
+            goals_sent: 0,
+        }
+    }
+
+    /// Tells the end, and returns the last status.
+    pub fn finish(&mut self, robot: &RosRobot, explorer: &Explorer, end: &End) -> ExplorationStatus {
+        self.goals_sent = robot.goals_sent();
+        end.message.clone_into(&mut self.message);
+        let last = self.status(Phase::Ended, explorer, Some(end));
+        self.outputs.set_status(last.clone());
+        self.outputs.tell_status();
+        last
+    }
+
+    fn status(&self, phase: Phase, explorer: &Explorer, end: Option<&End>) -> ExplorationStatus {
+        let counts = explorer.counts();
+        status(&StatusInput {
+            stamp_s: self.node.now_s(),
+            frame: &self.frame,
+            phase,
+            paused: false,
+            preset: &self.outputs.preset,
+            message: &self.message,
+            end,
+            elapsed_s: self.began_s.map_or(0.0, |began_s| self.now_s - began_s),
+            distance_m: self.distance_m,
+            known_area_m2: self.known_area_m2,
+            free_area_m2: self.free_area_m2,
+            frontiers: self.frontiers,
+            // The explorer counts what it chose, also where nobody was there to drive.
+            counts: &Counts { goals_sent: counts.goals_sent.min(self.goals_sent), ..*counts },
+            time_spent: explorer.time_spent(),
+            map_age_s: f64::NAN,
+        })
+    }
+
+    fn count_way(&mut self, observation: &Observation) {
+        let Ok(pose) = observation.pose_in_map else { return };
+        let step_m = self.last_pose.map_or(f64::INFINITY, |last| pose.distance_to(last.position()));
+        if step_m >= STEP_M {
+            // The first pose is no way.
+            if step_m.is_finite() {
+                self.distance_m += step_m;
+            }
+            self.last_pose = Some(pose);
+        }
+    }
+
+    fn count_area(&mut self, robot: &RosRobot) {
+        let Some(map) = robot.received_map() else { return };
+        if map.frame != self.frame {
+            map.frame.clone_into(&mut self.frame);
+        }
+        let census = self.census.update(&map.grid, &map.changes);
+        let cell_m2 = map.grid.info().cell_area_m2();
+        self.known_area_m2 = census.known() as f64 * cell_m2;
+        self.free_area_m2 = census.free as f64 * cell_m2;
+    }
+}
+
+/// One sentence about a phase in which nothing is decided.
+const fn phase_sentence(phase: Phase) -> Option<&'static str> {
+    match phase {
+        Phase::WaitingForMap => Some("waiting for a map that shows the newest sights"),
+        Phase::WaitingForPose => Some("waiting to know where the robot is"),
+        Phase::WaitingForNavigation => Some("waiting for move_base"),
+        Phase::Turning => Some("turning round to look about"),
+        Phase::BackingOff => Some("backing off from what stands too near"),
+        Phase::Pausing => Some("resting before what failed is tried again"),
+        Phase::Returning => Some("driving back to the start"),
+        Phase::Driving | Phase::Ended => None,
+    }
+}
+
+impl Watcher<RosRobot> for NodeWatcher<'_> {
+    fn before_step(&mut self, _: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
+        self.now_s = observation.stamp_s;
+        self.began_s.get_or_insert(self.now_s);
+        if let Some(region) = self.controls.new_region() {
+            explorer.set_region(region);
+            self.region_shown = false;
+        }
+        if !self.region_shown {
+            self.region_shown = true;
+            self.outputs.show_region(explorer, &self.frame);
+        }
+    }
+
+    fn after_step(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+        self.count_way(observation);
+        self.count_area(robot);
+        self.goals_sent = robot.goals_sent();
+        if let Some(notice) = &decision.notice {
+            self.node.log().warn(notice);
+        }
+        if let Some(sentence) = phase_sentence(decision.phase) {
+            sentence.clone_into(&mut self.message);
+        }
+        if let (Some(record), Some(map)) = (&decision.record, robot.received_map()) {
+            self.frontiers = record.candidates.len();
+            record.why.clone_into(&mut self.message);
+            // A goal that is kept is no news.
+            if record.goal.is_none() || record.goal != self.last_goal {
+                self.node.log().once(Level::Info, &record.why);
+            }
+            self.last_goal = record.goal;
+            self.outputs.show_decision(decision, record, map.grid.info().resolution_m(), &map.frame);
+        }
+        if let Some(path) = robot.path() {
+            self.outputs.show_path(&path, &self.frame);
+        }
+        let new = self.status(decision.phase, explorer, decision.end.as_ref());
+        self.outputs.set_status(new);
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.controls.stop_requested()
+    }
+}

@@ -1,0 +1,8 @@
+//! The ROS nodes (the rim): `explore_node`, and `sim_node` in the place of a robot. Each is a
+//! program on the ROS adapter; bin/ holds their thin `main`.
+
+mod explore;
+mod sim;
+
+pub use explore::{ExploreNodeError, explore_node, explore_with};
+pub use sim::{SimNodeError, sim_node, simulate_with};

@@ -1,0 +1,16 @@
+//! Simulated, recorded and compared runs (the rim): what puts one together, drives it and
+//! records it, for the command line and the nodes.
+
+#[cfg(feature = "report")]
+pub mod comparison;
+mod error;
+mod named_world;
+mod pace;
+mod plan;
+#[cfg(feature = "report")]
+pub mod record;
+
+pub use error::PlanError;
+pub use named_world::NamedWorld;
+pub use pace::Pace;
+pub use plan::Plan;
