@@ -61,7 +61,8 @@ impl ExploreLiteConfig {
 ///     ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), cells, 0.05, &robot_in_map)
 /// };
 /// let mut selector = ExploreLite(ExploreLiteConfig::default());
-/// let scores = selector.score(&[at(1.0, 20), at(7.0, 40)], &mut SelectionContext::straight(&mut StraightWays { robot_in_map }));
+/// let mut ways = StraightWays { robot_in_map };
+/// let scores = selector.score(&[at(1.0, 20), at(7.0, 40)], &mut SelectionContext::straight(&mut ways));
 /// // 3.0 * 1.0 * 0.05 - 1.0 * 1.0, and 3.0 * 7.0 * 0.05 - 1.0 * 2.0
 /// assert!((scores[0].total - -0.85).abs() < 1e-9 && (scores[1].total - -0.95).abs() < 1e-9);
 /// ```

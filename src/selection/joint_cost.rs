@@ -41,14 +41,18 @@ impl JointCostConfig {
 ///
 /// ```
 /// use frontier_explorer::geometry::{Point, Pose};
-/// use frontier_explorer::selection::{Candidate, GoalSelector, JointCost, JointCostConfig, SelectionContext, StraightWays};
+/// use frontier_explorer::selection::{
+///     Candidate, GoalSelector, JointCost, JointCostConfig, SelectionContext, StraightWays,
+/// };
 ///
 /// let robot_in_map = Pose::default();
 /// let at = |x: f64, cells| Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), cells, 0.5, &robot_in_map);
 /// let (near_and_small, far_and_large) = (at(2.0, 3), at(8.0, 12));
 /// let totals = |size_weight, distance_weight| {
 ///     let mut joint = JointCost(JointCostConfig { size_weight, distance_weight });
-///     let scores = joint.score(&[near_and_small.clone(), far_and_large.clone()], &mut SelectionContext::straight(&mut StraightWays { robot_in_map }));
+///     let mut ways = StraightWays { robot_in_map };
+///     let both = [near_and_small.clone(), far_and_large.clone()];
+///     let scores = joint.score(&both, &mut SelectionContext::straight(&mut ways));
 ///     [scores[0].total, scores[1].total]
 /// };
 /// assert_eq!(totals(1.0, 0.0), [0.75, 0.0]);

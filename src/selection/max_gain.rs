@@ -9,14 +9,16 @@ use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 ///
 /// ```
 /// use frontier_explorer::geometry::{Point, Pose};
-/// use frontier_explorer::selection::{Candidate, GoalSelector, MaxGain, SelectionContext};
+/// use frontier_explorer::selection::{Candidate, GoalSelector, MaxGain, SelectionContext, StraightWays};
 ///
 /// let robot = Pose::default();
 /// let circle = |x: f64, radius_m| {
 ///     let candidate = Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), 10, 0.05, &robot);
 ///     Candidate { radius_m: Some(radius_m), ..candidate }
 /// };
-/// let scores = MaxGain.score(&[circle(1.0, 0.5), circle(40.0, 0.6)], &SelectionContext { robot_in_map: robot });
+/// let mut ways = StraightWays { robot_in_map: robot };
+/// let circles = [circle(1.0, 0.5), circle(40.0, 0.6)];
+/// let scores = MaxGain.score(&circles, &mut SelectionContext::straight(&mut ways));
 /// assert!(scores[1].total < scores[0].total);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]

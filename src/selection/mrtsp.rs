@@ -32,7 +32,8 @@ const LEAST_GAIN_M: f64 = 0.05;
 ///     way_m: Some(x.abs()),
 ///     ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), cells, 0.5, &robot_in_map)
 /// };
-/// let scores = Mrtsp.score(&[at(-2.5, 8), at(2.0, 1)], &mut SelectionContext::straight(&mut StraightWays { robot_in_map }));
+/// let mut ways = StraightWays { robot_in_map };
+/// let scores = Mrtsp.score(&[at(-2.5, 8), at(2.0, 1)], &mut SelectionContext::straight(&mut ways));
 /// assert_eq!((scores[0].parts["ratio"], scores[1].parts["ratio"]), (0.625, 4.0));
 /// assert_eq!((scores[0].total, scores[1].total), (1.0, 0.0));
 /// ```

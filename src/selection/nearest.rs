@@ -45,7 +45,7 @@ pub struct NearestConfig {
 /// ```
 /// use frontier_explorer::geometry::{Point, Pose};
 /// use frontier_explorer::selection::{
-///     Candidate, DistanceMeasure, GoalSelector, Nearest, NearestConfig, SelectionContext,
+///     Candidate, DistanceMeasure, GoalSelector, Nearest, NearestConfig, SelectionContext, StraightWays,
 /// };
 ///
 /// let robot = Pose::default();
@@ -54,7 +54,9 @@ pub struct NearestConfig {
 /// let candidates = [behind_a_wall, Candidate { way_m: Some(3.0), ..at(3.0) }];
 /// let totals = |distance| {
 ///     let mut nearest = Nearest(NearestConfig { distance });
-///     nearest.score(&candidates, &SelectionContext { robot_in_map: robot }).iter().map(|s| s.total).collect::<Vec<_>>()
+///     let mut ways = StraightWays { robot_in_map: robot };
+///     let scores = nearest.score(&candidates, &mut SelectionContext::straight(&mut ways));
+///     scores.iter().map(|score| score.total).collect::<Vec<_>>()
 /// };
 /// assert_eq!(totals(DistanceMeasure::Euclidean), [1.0, 3.0]);
 /// assert_eq!(totals(DistanceMeasure::Path), [9.0, 3.0]);

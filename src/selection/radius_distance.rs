@@ -21,7 +21,8 @@ const NEAREST_M: f64 = 1e-3;
 ///     radius_m: Some(radius_m),
 ///     ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), 10, 0.05, &robot_in_map)
 /// });
-/// let scores = RadiusDistance.score(&circles, &mut SelectionContext::straight(&mut StraightWays { robot_in_map }));
+/// let mut ways = StraightWays { robot_in_map };
+/// let scores = RadiusDistance.score(&circles, &mut SelectionContext::straight(&mut ways));
 /// assert_eq!(scores.iter().map(|score| score.parts["e"]).collect::<Vec<_>>(), [0.25, 0.25, 0.125]);
 /// assert_eq!(scores[0].total, -0.25);
 /// ```
