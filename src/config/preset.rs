@@ -82,6 +82,8 @@ const BUILT_IN: &[(&str, &str)] = &[
     ("northwestern", include_str!("../../configs/northwestern.yaml")),
     ("explore_lite", include_str!("../../configs/explore_lite.yaml")),
     ("mrtsp", include_str!("../../configs/mrtsp.yaml")),
+    ("nearest_by_way", include_str!("../../configs/nearest_by_way.yaml")),
+    ("gain_decay", include_str!("../../configs/gain_decay.yaml")),
     ("tour", include_str!("../../configs/tour.yaml")),
 ];
 

@@ -1,6 +1,7 @@
 //! Which frontier next (floor 1): one file for each strategy.
 
 mod explore_lite;
+mod gain_decay;
 mod joint_cost;
 mod max_gain;
 mod mrtsp;
@@ -11,6 +12,7 @@ mod tour;
 mod ways;
 
 pub use explore_lite::{ExploreLite, ExploreLiteConfig};
+pub use gain_decay::{GainDecay, GainDecayConfig};
 pub use joint_cost::{JointCost, JointCostConfig};
 pub use max_gain::MaxGain;
 pub use mrtsp::Mrtsp;
@@ -141,6 +143,8 @@ pub enum SelectorConfig {
     JointCost(JointCostConfig),
     /// explore_lite's cost.
     ExploreLite(ExploreLiteConfig),
+    /// The longest first, discounted by the way (Gonzalez-Banos and Latombe 2002).
+    GainDecay(GainDecayConfig),
     /// A tour over all frontiers (Scientific Reports 2025).
     Mrtsp {},
     /// The shortest tour over the real ways, planned anew with every map.
@@ -156,13 +160,14 @@ impl Default for SelectorConfig {
 impl SelectorConfig {
     /// All strategies with their default parameters, for tables of tests and help.
     #[must_use]
-    pub fn all() -> [Self; 7] {
+    pub fn all() -> [Self; 8] {
         [
             Self::default(),
             Self::MaxGain {},
             Self::RadiusDistance {},
             Self::JointCost(JointCostConfig::default()),
             Self::ExploreLite(ExploreLiteConfig::default()),
+            Self::GainDecay(GainDecayConfig::default()),
             Self::Mrtsp {},
             Self::Tour(TourConfig::default()),
         ]
@@ -181,6 +186,7 @@ impl SelectorConfig {
         match self {
             Self::JointCost(config) => config.numbers(),
             Self::ExploreLite(config) => config.numbers(),
+            Self::GainDecay(config) => config.numbers(),
             Self::Tour(config) => config.numbers(),
             Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Vec::new(),
         }
@@ -195,6 +201,7 @@ impl SelectorConfig {
             Self::RadiusDistance {} => Box::new(RadiusDistance),
             Self::JointCost(config) => Box::new(JointCost(config)),
             Self::ExploreLite(config) => Box::new(ExploreLite(config)),
+            Self::GainDecay(config) => Box::new(GainDecay(config)),
             Self::Mrtsp {} => Box::new(Mrtsp),
             Self::Tour(config) => Box::new(Tour(config)),
         }

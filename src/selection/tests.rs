@@ -43,6 +43,8 @@ fn each_strategy_has_its_own_order() {
         (explore_lite(60.0), [0, 2, 1]),
         // 4 / 2 + 2 / 0.3 + 7 / 6 = 9.8
         (SelectorConfig::Mrtsp {}, [2, 0, 1]),
+        // 0.3 e^-0.9, 6 e^-0.8, 2 e^-0.4
+        (SelectorConfig::GainDecay(GainDecayConfig::default()), [1, 2, 0]),
         (SelectorConfig::Tour(TourConfig::default()), [0, 2, 1]),
     ] {
         assert_eq!(order(config), expected, "{config:?}");
