@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GainDecayConfig {
-    /// How much of the gain a metre of way costs, its logarithm per metre: at 0.1 half of it
-    /// after 7 m.
+    /// How fast the gain decays with the way: by e to the minus this for each of its metres. At
+    /// 0.1 half of it is left after 7 m.
     pub lambda_per_m: f64,
 }
 

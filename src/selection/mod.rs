@@ -143,7 +143,7 @@ pub enum SelectorConfig {
     JointCost(JointCostConfig),
     /// explore_lite's cost.
     ExploreLite(ExploreLiteConfig),
-    /// The longest first, discounted by the way (Gonzalez-Banos and Latombe 2002).
+    /// The longest first, discounted by its way.
     GainDecay(GainDecayConfig),
     /// A tour over all frontiers (Scientific Reports 2025).
     Mrtsp {},

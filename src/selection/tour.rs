@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 pub struct TourConfig {
     /// How many frontiers are ordered, the nearest by way.
     pub most: usize,
-    /// What a radian of turning to set out costs, metres of way.
+    /// What turning to set out costs, metres of way for each of its radians.
     pub turn_m_per_rad: f64,
     /// A turn up to this angle costs nothing, radians.
     pub free_turn_rad: f64,

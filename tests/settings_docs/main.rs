@@ -66,7 +66,7 @@ fn comments_change_nothing_and_fit_on_a_line() {
         assert_eq!(plain, serde_saphyr::to_string(&preset).unwrap());
         let mut lines = text.lines().peekable();
         while let Some(line) = lines.next() {
-            assert!(line.len() <= 140, "{} characters: {line}", line.len());
+            assert!(line.len() <= 160, "{} characters: {line}", line.len());
             let follows = lines.peek().is_none_or(|next| !is_comment(next));
             assert!(follows || !is_comment(&line), "two comments for one setting: {line}");
         }
