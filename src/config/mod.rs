@@ -1,5 +1,6 @@
 //! Configuration files: raw serde structs that become validated types (floor 2).
 
+mod explained;
 mod merge;
 mod names;
 mod node;
@@ -7,10 +8,13 @@ mod params;
 mod preset;
 mod robot;
 mod robots;
+mod setting;
 
+pub use explained::{ExplainError, Explained};
 pub use names::hint;
 pub use node::{NodeParams, NodeParamsError, TurnBy};
 pub use params::{ParamError, read_params};
 pub use preset::{Drive, NavigationSettings, Preset, PresetError};
 pub use robot::{CostmapConfig, LidarConfig, RobotConfig, RobotConfigError};
 pub use robots::{BUILTIN_ROBOTS, builtin_robot};
+pub use setting::{Choice, Setting};

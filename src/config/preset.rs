@@ -4,9 +4,12 @@ use super::names::{hint, one_line};
 use crate::control::ControllerConfig;
 use crate::explore::{ExplorerSettings, SettingsError};
 use crate::geometry::Body;
+use crate::grid::Thresholds;
 use crate::navigation::{Navigator, NavigatorConfig};
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// A preset that cannot be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -33,19 +36,19 @@ pub enum PresetError {
 }
 
 /// How an exploration is done: what the explorer decides and how goals are driven to.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Preset {
-    /// What reports call it.
+    /// What reports call the preset.
     pub preset: String,
-    /// The decisions.
+    /// What the explorer decides, and how.
     pub explorer: ExplorerSettings,
-    /// The driving, where our own navigation does it.
+    /// How goals are driven to.
     pub navigation: NavigationSettings,
 }
 
 /// Who drives to a goal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Drive {
     /// The stack's move_base, or what serves its action.
@@ -56,14 +59,14 @@ pub enum Drive {
 }
 
 /// How goals are driven to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct NavigationSettings {
     /// Who drives a robot behind ROS; the simulator always drives by itself.
     pub drive: Drive,
-    /// Tolerances and patience.
+    /// Tolerances and patience of our own navigation.
     pub navigator: NavigatorConfig,
-    /// How paths become velocity commands.
+    /// How paths become velocity commands in our own navigation.
     pub controller: ControllerConfig,
 }
 
@@ -79,6 +82,9 @@ const BUILT_IN: &[(&str, &str)] = &[
     ("northwestern", include_str!("../../configs/northwestern.yaml")),
     ("explore_lite", include_str!("../../configs/explore_lite.yaml")),
     ("mrtsp", include_str!("../../configs/mrtsp.yaml")),
+    ("nearest_by_way", include_str!("../../configs/nearest_by_way.yaml")),
+    ("gain_decay", include_str!("../../configs/gain_decay.yaml")),
+    ("tour", include_str!("../../configs/tour.yaml")),
 ];
 
 impl Preset {
@@ -121,7 +127,24 @@ impl Preset {
     /// [`PresetError`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), PresetError> {
         self.explorer.validate()?;
-        Ok(self.navigation.validate()?)
+        Ok(Ranged::check_all(self.navigation.numbers())?)
+    }
+}
+
+impl Preset {
+    /// The ranges of all numbers, by their paths.
+    pub(super) fn ranges(&self) -> BTreeMap<String, Range> {
+        let explorer = &self.explorer;
+        let (free_max, occupied_min) =
+            (f64::from(explorer.thresholds.free_max), f64::from(explorer.thresholds.occupied_min));
+        // These two are checked together, by `Thresholds::validate`.
+        let thresholds = [
+            Range::within(0.0, occupied_min - 1.0, Thresholds::ALLOWED).of("thresholds.free_max", free_max),
+            Range::within(free_max + 1.0, 100.0, Thresholds::ALLOWED).of("thresholds.occupied_min", occupied_min),
+        ];
+        let explorer = explorer.numbers().into_iter().chain(explorer.detector_params().numbers()).chain(thresholds);
+        let navigation = self.navigation.numbers().into_iter().map(|n| (format!("navigation.{}", n.key), n.range));
+        explorer.map(|n| (format!("explorer.{}", n.key), n.range)).chain(navigation).collect()
     }
 
     /// What drives a body to goals with our own planner and controller.
@@ -133,9 +156,10 @@ impl Preset {
 }
 
 impl NavigationSettings {
-    fn validate(&self) -> Result<(), OutOfRange> {
+    /// The numbers with their ranges.
+    fn numbers(&self) -> Vec<Ranged> {
         let navigator = &self.navigator;
-        for (key, value) in [
+        let positive = [
             ("navigator.control_period_s", navigator.control_period_s),
             ("navigator.xy_goal_tolerance_m", navigator.xy_goal_tolerance_m),
             ("navigator.yaw_goal_tolerance_rad", navigator.yaw_goal_tolerance_rad),
@@ -143,10 +167,9 @@ impl NavigationSettings {
             ("navigator.planner_patience_s", navigator.planner_patience_s),
             ("navigator.controller_patience_s", navigator.controller_patience_s),
             ("navigator.turn_speed_rps", navigator.turn_speed_rps),
-        ] {
-            OutOfRange::unless_positive(key, value)?;
-        }
-        self.controller.validate()
+        ];
+        let positive = positive.map(|(key, value)| Range::POSITIVE.of(key, value));
+        positive.into_iter().chain(self.controller.numbers()).collect()
     }
 }
 

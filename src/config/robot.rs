@@ -5,8 +5,11 @@ use super::names::one_line;
 use crate::explore::{RobotTraits, Sight};
 use crate::geometry::{Body, Footprint, FootprintError, MotionLimits, Pose};
 use crate::grid::Inflation;
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 /// A number of a robot file that cannot be.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -33,21 +36,21 @@ pub enum RobotConfigError {
 }
 
 /// A planar lidar and where it is mounted.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LidarConfig {
-    /// Mounting pose in the base frame.
+    /// Where the lidar is mounted in the base frame.
     #[serde(default)]
     pub mount: Pose,
     /// Shortest distance it can measure, metres.
     pub range_min_m: f64,
     /// Longest distance it can measure, metres.
     pub range_max_m: f64,
-    /// Opening angle, centred ahead; 2 pi sees all round.
+    /// Opening angle, centred ahead, radians; 2 pi sees all round.
     pub field_of_view_rad: f64,
-    /// Rays of one sweep.
+    /// Number of rays of one sweep.
     pub rays: u32,
-    /// Sweeps per second.
+    /// Sweeps per second, Hz.
     pub rate_hz: f64,
     /// Standard deviation of a range, metres.
     #[serde(default)]
@@ -55,7 +58,7 @@ pub struct LidarConfig {
 }
 
 /// How the robot's navigation inflates obstacles (costmap_2d's inflation layer).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CostmapConfig {
     /// How far from an obstacle costs reach, metres.
@@ -68,18 +71,18 @@ pub struct CostmapConfig {
 }
 
 /// A validated robot.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RobotConfig {
-    /// What users call it.
+    /// What users call the robot.
     pub name: String,
-    /// Its outline.
+    /// Its outline, by a radius or by a polygon.
     pub footprint: Footprint,
     /// What it is able to do.
     pub limits: MotionLimits,
-    /// Its lidar.
+    /// Its planar lidar and where that is mounted.
     pub lidar: LidarConfig,
-    /// Its costmap.
+    /// How its navigation inflates obstacles (costmap_2d's inflation layer).
     pub costmap: CostmapConfig,
 }
 
@@ -128,37 +131,43 @@ impl RobotConfig {
     /// [`RobotConfigError`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), RobotConfigError> {
         self.footprint.validate()?;
-        for (key, value) in [
-            ("limits.max_linear_mps", self.limits.max_linear_mps),
-            ("limits.max_angular_rps", self.limits.max_angular_rps),
-            ("limits.max_linear_mps2", self.limits.max_linear_mps2),
-            ("limits.max_angular_rps2", self.limits.max_angular_rps2),
-            ("lidar.range_max_m", self.lidar.range_max_m),
-            ("lidar.field_of_view_rad", self.lidar.field_of_view_rad),
-            ("lidar.rays", f64::from(self.lidar.rays)),
-            ("lidar.rate_hz", self.lidar.rate_hz),
-            ("costmap.inflation_radius_m", self.costmap.inflation_radius_m),
-        ] {
-            OutOfRange::unless_positive(key, value)?;
-        }
-        for (key, value) in [
-            ("lidar.range_min_m", self.lidar.range_min_m),
-            ("lidar.noise_std_m", self.lidar.noise_std_m),
-            ("costmap.cost_scaling_factor", self.costmap.cost_scaling_factor),
-            ("costmap.padding_m", self.costmap.padding_m),
-        ] {
-            OutOfRange::unless_not_negative(key, value)?;
-        }
-        let lidar = &self.lidar;
-        OutOfRange::unless(
-            lidar.range_min_m < lidar.range_max_m,
-            "lidar.range_min_m",
-            lidar.range_min_m,
-            "below range_max_m",
-        )?;
-        let all_round = lidar.field_of_view_rad <= std::f64::consts::TAU + 1e-6;
-        OutOfRange::unless(all_round, "lidar.field_of_view_rad", lidar.field_of_view_rad, "at most 2 pi")?;
-        OutOfRange::unless(lidar.rays <= 100_000, "lidar.rays", f64::from(lidar.rays), "at most 100000")?;
-        Ok(())
+        Ok(Ranged::check_all(self.numbers())?)
+    }
+
+    /// The ranges of all numbers, by their paths.
+    pub(super) fn ranges(&self) -> BTreeMap<String, Range> {
+        // Checked by `Footprint::validate`.
+        let radius = ("footprint.radius_m".to_owned(), Range::POSITIVE);
+        self.numbers().into_iter().map(|n| (n.key.to_owned(), n.range)).chain([radius]).collect()
+    }
+
+    /// The numbers with their ranges, but for those of the footprint.
+    fn numbers(&self) -> Vec<Ranged> {
+        let (limits, lidar, costmap) = (&self.limits, &self.lidar, &self.costmap);
+        let positive = [
+            ("limits.max_linear_mps", limits.max_linear_mps),
+            ("limits.max_angular_rps", limits.max_angular_rps),
+            ("limits.max_linear_mps2", limits.max_linear_mps2),
+            ("limits.max_angular_rps2", limits.max_angular_rps2),
+            ("lidar.rate_hz", lidar.rate_hz),
+            ("costmap.inflation_radius_m", costmap.inflation_radius_m),
+        ];
+        let not_negative = [
+            ("lidar.range_min_m", lidar.range_min_m),
+            ("lidar.noise_std_m", lidar.noise_std_m),
+            ("costmap.cost_scaling_factor", costmap.cost_scaling_factor),
+            ("costmap.padding_m", costmap.padding_m),
+        ];
+        let mount =
+            [("lidar.mount.x", lidar.mount.x), ("lidar.mount.y", lidar.mount.y), ("lidar.mount.yaw", lidar.mount.yaw)];
+        let longest = Range::above(lidar.range_min_m, f64::MAX, "finite and > range_min_m");
+        let opening = Range::above(0.0, TAU + 1e-6, "above 0 and at most 2 pi");
+        let mut numbers = positive.map(|(key, value)| Range::POSITIVE.of(key, value)).to_vec();
+        numbers.extend(not_negative.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)));
+        numbers.extend(mount.map(|(key, value)| Range::FINITE.of(key, value)));
+        numbers.push(longest.of("lidar.range_max_m", lidar.range_max_m));
+        numbers.push(opening.of("lidar.field_of_view_rad", lidar.field_of_view_rad));
+        numbers.push(Range::within(1.0, 1e5, "1 to 100000").of("lidar.rays", f64::from(lidar.rays)));
+        numbers
     }
 }

@@ -1,19 +1,20 @@
 //! The parameters of the Dynamic Window Approach ([`super::Dwa`]).
 
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How much each critic counts; 0 switches it off.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DwaWeights {
-    /// Forward speed: faster is better.
+    /// Weight of the forward speed: faster is better.
     pub speed: f64,
-    /// Angle to the aim where the simulation ends: smaller is better.
+    /// Weight of the angle to the aim where the simulation ends: smaller is better.
     pub direction: f64,
-    /// Distance from the path where the simulation ends: smaller is better.
+    /// Weight of the distance from the path where the simulation ends: smaller is better.
     pub path: f64,
-    /// Distance from obstacles along the simulation: larger is better.
+    /// Weight of the distance from obstacles along the simulation: larger is better.
     pub clearance: f64,
 }
 
@@ -29,7 +30,7 @@ impl Default for DwaWeights {
 }
 
 /// Parameters of the controller.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DwaConfig {
     /// How far ahead each sample is simulated, seconds.
@@ -42,13 +43,13 @@ pub struct DwaConfig {
     pub lookahead_m: f64,
     /// Directions farther aside than this are turned to on the spot, radians.
     pub turn_on_spot_above_rad: f64,
-    /// Kept free around the outline while stopping, metres.
+    /// Distance that is kept free around the outline while stopping, metres.
     pub margin_m: f64,
     /// Distances from obstacles beyond this count alike, metres.
     pub clearance_cap_m: f64,
     /// Poses of the simulations are at most so far apart, metres.
     pub granularity_m: f64,
-    /// The critics.
+    /// How much each critic counts; 0 switches it off.
     pub weights: DwaWeights,
 }
 
@@ -66,36 +67,29 @@ impl DwaConfig {
         weights: DwaWeights::DEFAULT,
     };
 
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        for (key, value) in [
+    /// The numbers with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let positive = [
             ("controller.horizon_s", self.horizon_s),
             ("controller.lookahead_m", self.lookahead_m),
             ("controller.turn_on_spot_above_rad", self.turn_on_spot_above_rad),
             ("controller.clearance_cap_m", self.clearance_cap_m),
             ("controller.granularity_m", self.granularity_m),
-        ] {
-            OutOfRange::unless_positive(key, value)?;
-        }
+        ];
         let weights = &self.weights;
-        for (key, value) in [
+        let not_negative = [
             ("controller.margin_m", self.margin_m),
             ("controller.weights.speed", weights.speed),
             ("controller.weights.direction", weights.direction),
             ("controller.weights.path", weights.path),
             ("controller.weights.clearance", weights.clearance),
-        ] {
-            OutOfRange::unless_not_negative(key, value)?;
-        }
-        for (key, value) in
-            [("controller.linear_samples", self.linear_samples), ("controller.angular_samples", self.angular_samples)]
-        {
-            OutOfRange::unless((2..=200).contains(&value), key, f64::from(value), "2 to 200")?;
-        }
-        Ok(())
+        ];
+        let samples =
+            [("controller.linear_samples", self.linear_samples), ("controller.angular_samples", self.angular_samples)];
+        let positive = positive.map(|(key, value)| Range::POSITIVE.of(key, value));
+        let not_negative = not_negative.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value));
+        let samples = samples.map(|(key, value)| Range::within(2.0, 200.0, "2 to 200").of(key, f64::from(value)));
+        [&positive[..], &not_negative, &samples].concat()
     }
 }
 

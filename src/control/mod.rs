@@ -18,11 +18,12 @@ pub use path_follower::{FollowerConfig, PathFollower};
 pub(crate) use surroundings::Surroundings;
 
 use crate::geometry::Body;
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The controllers with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ControllerConfig {
     /// Pure pursuit with turns on the spot: keeps to the path and looks at nothing else.
@@ -46,9 +47,14 @@ impl ControllerConfig {
     /// # Errors
     /// [`OutOfRange`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::FollowPath(config) => config.validate(),
-            Self::Dwa(config) => config.validate(),
+            Self::FollowPath(config) => config.numbers(),
+            Self::Dwa(config) => config.numbers(),
         }
     }
 

@@ -7,11 +7,12 @@
 use super::path_progress::PathProgress;
 use super::{ControlError, ControlInput, Controller};
 use crate::geometry::{Body, Pose, Twist, shortest_angle};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters of the follower.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FollowerConfig {
     /// Distance of the point that is steered for, metres.
@@ -26,14 +27,14 @@ impl FollowerConfig {
     /// The default parameters.
     pub const DEFAULT: Self = Self { lookahead_m: 0.6, turn_on_spot_above_rad: 0.7, heading_gain: 3.0 };
 
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless_positive("controller.lookahead_m", self.lookahead_m)?;
-        OutOfRange::unless_positive("controller.turn_on_spot_above_rad", self.turn_on_spot_above_rad)?;
-        OutOfRange::unless_positive("controller.heading_gain", self.heading_gain)
+    /// The numbers with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let positive = [
+            ("controller.lookahead_m", self.lookahead_m),
+            ("controller.turn_on_spot_above_rad", self.turn_on_spot_above_rad),
+            ("controller.heading_gain", self.heading_gain),
+        ];
+        positive.map(|(key, value)| Range::POSITIVE.of(key, value)).into()
     }
 }
 

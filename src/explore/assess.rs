@@ -75,14 +75,10 @@ impl Assessor<'_> {
         let distance_m = self.robot.distance_to(target);
         let size_m = frontier.size_m(info);
         let candidate = goal.map(|goal| Candidate {
-            target,
-            goal,
-            size_cells: frontier.cells.len(),
-            size_m,
             radius_m: needs.radius.then(|| frontier.enclosing_circle(info).map_or(0.0, |circle| circle.radius_m)),
-            distance_m,
             nearest_m: needs.nearest.then(|| self.nearest_m(frontier)),
             way_m: self.way_m(&goal),
+            ..Candidate::new(target, goal, frontier.cells.len(), info.resolution_m(), &self.robot)
         });
         let record = CandidateRecord {
             id: frontier.id,
@@ -210,12 +206,12 @@ fn is_near(frontier: &Frontier, info: &GridInfo, target: Point) -> bool {
 
 /// Scores the eligible ones and puts them first, best first; the others follow in the
 /// order of their ids. Returns how many are eligible.
-pub fn rank(assessed: &mut [Assessed], selector: &mut dyn GoalSelector, robot: Pose) -> usize {
+pub fn rank(assessed: &mut [Assessed], selector: &mut dyn GoalSelector, context: &mut SelectionContext<'_>) -> usize {
     assessed.sort_by_key(|a| (a.record.status != CandidateStatus::Eligible, a.record.id));
     let eligible = assessed.iter().filter(|a| a.record.status == CandidateStatus::Eligible).count();
     let (first, _) = assessed.split_at_mut(eligible);
     let candidates: Vec<Candidate> = first.iter().filter_map(|a| a.candidate.clone()).collect();
-    let scores = selector.score(&candidates, &SelectionContext { robot_in_map: robot });
+    let scores = selector.score(&candidates, context);
     for (assessed, score) in first.iter_mut().zip(scores) {
         assessed.total = score.total;
         assessed.record.scores = score.parts;

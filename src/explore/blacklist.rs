@@ -5,21 +5,22 @@
 //! that expires by the clock comes back before the others have had their turn.
 
 use crate::geometry::Point;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How failures and vain visits become taboo.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TabooConfig {
     /// Targets within this distance are the same place, metres.
     pub radius_m: f64,
-    /// A frontier is taboo for the round after failing this often, each time from another
-    /// place to stand.
+    /// A frontier is taboo for the round after so many failures. A round lasts until nothing is
+    /// left to try; each failure is that of another place to stand.
     pub max_failures: u32,
     /// What has failed is not tried again in later rounds either (Yamauchi 1997).
     pub is_final: bool,
-    /// A place to stand is spent after the robot was there this often and newer maps showed
-    /// no change: only one closer to the frontier is worth a visit then.
+    /// A place to stand is spent after so many visits without a change in newer maps. Only
+    /// a place closer to the frontier is worth a visit then.
     pub max_visits: u32,
 }
 

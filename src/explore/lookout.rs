@@ -2,6 +2,7 @@
 //! where there is none, look once more with other eyes.
 
 mod beside;
+mod map_ways;
 mod second_look;
 
 use super::assess::{Assessed, Assessor, rank};
@@ -20,7 +21,8 @@ use crate::geometry::{Path, Point, Pose};
 use crate::grid::{Costmap, LiveCostmap, Roomy, Snapshot, Thresholds};
 use crate::planning::{Astar, Driven, GlobalPlanner, Opened, Passable, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
-use crate::selection::GoalSelector;
+use crate::selection::{GoalSelector, SelectionContext};
+use map_ways::MapWays;
 use std::sync::Arc;
 
 /// What a decision is made on, besides the map.
@@ -39,6 +41,8 @@ pub struct Situation<'a> {
     pub awaits_map: bool,
     /// The frontier beside the way that it is on its way to, if it is.
     pub beside: Option<Point>,
+    /// The target that it is on its way to, whatever that is.
+    pub under_way: Option<Point>,
 }
 
 /// The algorithms that a decision wires together.
@@ -94,6 +98,11 @@ impl Lookout {
                 passable: Passable::default(),
             },
         }
+    }
+
+    /// Whether the strategy itself weighs when a goal under way is given up for a better one.
+    pub fn keeps_goals(&self) -> bool {
+        self.selector.keeps_goals()
     }
 
     /// Asks another planner for the way to a candidate, such as move_base's own.
@@ -199,7 +208,10 @@ impl Lookout {
         let assessor = self.assessor(situation, map, field);
         let standing = &mut self.standing;
         let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| assessor.assess(f, standing)).collect();
-        let eligible = rank(&mut assessed, &mut *self.selector, situation.robot);
+        let mut ways = MapWays::of(field.filter(|_| self.selector.needs().ways), situation.robot);
+        let (robot_in_map, under_way) = (situation.robot, situation.under_way);
+        let mut context = SelectionContext { robot_in_map, under_way, ways: &mut ways };
+        let eligible = rank(&mut assessed, &mut *self.selector, &mut context);
         let choice =
             field.and_then(|field| self.first_with_a_way(&mut assessed[..eligible], field.costmap(), &situation.robot));
         Weighed { assessed, choice }

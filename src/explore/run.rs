@@ -35,6 +35,11 @@ impl<R, A: Watcher<R>, B: Watcher<R>> Watcher<R> for (A, B) {
     }
 }
 
+/// Nobody looks on.
+impl<R> Watcher<R> for () {
+    fn after_step(&mut self, _: &R, _: &Explorer, _: &Observation, _: &Decision) {}
+}
+
 /// Runs the explorer on a robot until one of them ends.
 pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl Watcher<R>) -> End {
     let mut now_s = 0.0;

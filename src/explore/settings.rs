@@ -10,8 +10,9 @@ use crate::frontier::{
 use crate::geometry::Polygon;
 use crate::grid::{Neighbourhood, Thresholds};
 use crate::planning::PlannerConfig;
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Range, Ranged};
 use crate::selection::SelectorConfig;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A setting that cannot be.
@@ -26,15 +27,14 @@ pub enum SettingsError {
 }
 
 /// When the robot turns round to look about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TurnSettings {
-    /// Before the first decision.
+    /// A full turn is made before the first decision.
     pub at_start: bool,
-    /// On arrival at every goal.
+    /// A full turn is made on arrival at every goal.
     pub at_goal: bool,
-    /// How many recovery turns are made, while frontiers remain to which there is no
-    /// way, before giving up.
+    /// How many recovery turns are made before giving up, while no way leads to any frontier.
     pub recoveries: u32,
 }
 
@@ -45,27 +45,27 @@ impl Default for TurnSettings {
 }
 
 /// How a goal is derived from a frontier.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GoalSettings {
     /// The point that stands for the frontier.
     pub representative: Representative,
-    /// How far from it a place to stand is looked for, metres.
+    /// How far from the frontier's point a place to stand is looked for, metres.
     pub search_radius_m: f64,
     /// Which way the robot looks at the goal.
     pub heading: GoalHeading,
     /// The robot stands at a goal already when nearer than this, metres.
     pub already_there_m: f64,
-    /// Decide anew every so many seconds while driving; never when absent, as the
-    /// papers that drive to the end of each goal have it.
+    /// On the way the goal is reconsidered after each such time, seconds. Never when null, as
+    /// the papers that drive to the end of each goal have it.
     pub reconsider_period_s: Option<f64>,
-    /// A goal that is reconsidered is kept while a frontier that could be chosen remains
-    /// this near to the one it was chosen for, metres: robots that follow every change
-    /// of mind run to and fro between rooms. 0 never keeps it.
+    /// A reconsidered goal is kept while a frontier remains this near to its own, metres. The
+    /// frontier must be one that could be chosen. Robots that follow every change of mind run to
+    /// and fro between rooms; with 0 no goal is kept.
     pub commit_radius_m: f64,
-    /// A frontier to which the way is at most so long is seen before the robot leaves for a
-    /// goal at least twice as far, where the way there leads away from it, metres. Frontiers
-    /// that the preset drops for their size count as well. Never when absent.
+    /// Frontiers to which the way is at most so long are seen before a far goal, metres. Far is
+    /// a goal at least twice as far away, where the way there leads away from the frontier.
+    /// Frontiers that the preset drops for their size count as well. None when null.
     pub beside_way_m: Option<f64>,
 }
 
@@ -84,30 +84,30 @@ impl Default for GoalSettings {
 }
 
 /// How long is waited for what.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PatienceSettings {
     /// The robot counts as stuck after this time at one position, seconds.
     pub progress_timeout_s: f64,
-    /// What counts as another position, metres.
+    /// The distance from which on a position counts as another one, metres.
     pub progress_distance_m: f64,
     /// The longest that one goal may take, seconds.
     pub goal_timeout_s: f64,
-    /// How long a map that shows the newest sights is waited for before a small turn
-    /// brings one, seconds: gmapping sends none while the robot stands. Only an end, and
-    /// presets that turn round at their goals, wait for it.
+    /// How long a map with the newest sights is waited for before a small turn brings one,
+    /// seconds. The robot turns since gmapping sends no map while it stands. Only an end, and
+    /// presets that turn round at their goals, wait for such a map.
     pub settle_s: f64,
     /// A robot that is sent to a goal and stands still for so long is sent elsewhere,
     /// seconds.
     pub stall_s: f64,
-    /// One that has not moved at all since it was sent, after so long, seconds: its planner
-    /// has found no way. GlobalPlanner fails so for one goal in twelve, wherever it lies in
-    /// its cell.
+    /// A robot that has not moved at all for a new goal is sent elsewhere after so long, seconds.
+    /// Its planner has found no way: GlobalPlanner fails so for one goal in twelve, wherever the
+    /// goal lies in its cell.
     pub begin_s: f64,
-    /// A pose that is unknown for less than this leaves the goal under way, seconds.
+    /// A goal stays under way while the pose is unknown for less than this time, seconds.
     pub pose_grace_s: f64,
-    /// While frontiers are left and each attempt fails, the robot goes on trying for this
-    /// time in all, with growing pauses, seconds.
+    /// How long the robot goes on trying, in all, while each attempt fails, seconds. The pauses
+    /// between the attempts grow.
     pub failing_s: f64,
     /// The run ends when nothing new was seen for so long, whatever is left, seconds.
     pub no_news_s: f64,
@@ -117,7 +117,7 @@ pub struct PatienceSettings {
     pub pose_timeout_s: f64,
     /// The run ends when nobody carried its commands out for so long, seconds.
     pub navigation_timeout_s: f64,
-    /// The run ends after so long, seconds; never when absent.
+    /// The run ends after so long, seconds. Never when null.
     pub time_limit_s: Option<f64>,
 }
 
@@ -142,14 +142,14 @@ impl Default for PatienceSettings {
 }
 
 /// When a run is over.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FinishSettings {
-    /// Go on to frontiers that the preset's own detector does not see, where the check
-    /// before the end finds some. Without it such a run ends `preset_sees_no_more`.
+    /// The run goes on to frontiers that the check before the end alone sees. The preset's own
+    /// detector does not see them; without this setting such a run ends `preset_sees_no_more`.
     pub explore_what_the_audit_sees: bool,
-    /// End `good_enough` once this share of the free area is known, the area behind the
-    /// frontiers left being an estimate; never when absent.
+    /// The run ends `good_enough` once this share of the free area is known, 1 being all. The
+    /// area behind the frontiers left is an estimate. Never when null.
     pub good_enough_share: Option<f64>,
 }
 
@@ -160,52 +160,55 @@ impl Default for FinishSettings {
 }
 
 /// Which detector, with its parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DetectorSettings {
-    /// Its name.
+    /// Which detector finds the frontiers.
     pub name: DetectorKind,
-    /// Which cells are adjacent: 4 or 8.
+    /// How many cells are adjacent to one: 4 share a side with it, 8 a side or a corner.
     pub neighbours: Neighbourhood,
-    /// What counts as reachable.
+    /// Which frontier cells count as within the robot's reach.
     pub reachability: Reachability,
-    /// Smaller frontiers are dropped; number of cells times resolution, metres.
+    /// Frontiers smaller than this are dropped, metres. The size is the number of cells times the
+    /// resolution.
     pub min_size_m: f64,
-    /// Read by the image detector alone.
+    /// Parameters of the detector `image`; no other reads them.
     pub image: ImageParams,
-    /// Read by the dbscan detector alone.
+    /// Parameters of the detector `dbscan`; no other reads them.
     pub dbscan: DbscanParams,
-    /// Read by the canny detector alone.
+    /// Parameters of the detector `canny`; no other reads them.
     pub canny: CannyParams,
-    /// Read by the fast detector alone.
+    /// Parameters of the detector `fast`; no other reads them.
     pub fast: FastParams,
 }
 
 /// The explorer's settings.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExplorerSettings {
-    /// Where free ends and occupied begins.
+    /// Which values of the map are free and which are occupied. The scale is that of
+    /// `nav_msgs/OccupancyGrid`, -1 unknown and 0 to 100; values in between are neither.
     pub thresholds: Thresholds,
     /// How frontiers are found.
     pub detector: DetectorSettings,
     /// Which frontier comes first.
     pub selection: SelectorConfig,
-    /// How ways are found.
+    /// How paths to goals are planned.
     pub planner: PlannerConfig,
     /// How a goal is derived from a frontier.
     pub goal: GoalSettings,
-    /// When to look about.
+    /// When the robot turns round to look about.
     pub turns: TurnSettings,
     /// What becomes of goals that fail.
     pub taboo: TabooConfig,
-    /// How long is waited for what.
+    /// How long the robot waits for what, and when it gives up.
     pub patience: PatienceSettings,
     /// When the run is over.
     pub finish: FinishSettings,
-    /// Only frontiers inside are explored: corners [x, y] in metres of the map frame.
+    /// Only frontiers inside this polygon are explored, metres of the map frame. At least three
+    /// corners `[x, y]`, in order; everywhere when null.
     pub region: Option<Polygon>,
-    /// Drive back to where the run began before it ends.
+    /// The robot drives back to where the run began before it ends.
     pub return_to_start: bool,
 }
 
@@ -215,42 +218,45 @@ impl ExplorerSettings {
     /// # Errors
     /// [`SettingsError`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), SettingsError> {
+        Ranged::check_all(self.numbers())?;
+        Ok(self.detector_params().validate()?)
+    }
+
+    /// The numbers with their ranges, but for those of the detector.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         let (goal, patience, taboo) = (&self.goal, &self.patience, &self.taboo);
-        for (key, value) in [
-            ("goal.search_radius_m", goal.search_radius_m),
-            ("goal.reconsider_period_s", goal.reconsider_period_s.unwrap_or(1.0)),
-            ("goal.beside_way_m", goal.beside_way_m.unwrap_or(1.0)),
-            ("patience.progress_timeout_s", patience.progress_timeout_s),
-            ("patience.progress_distance_m", patience.progress_distance_m),
-            ("patience.goal_timeout_s", patience.goal_timeout_s),
-            ("patience.stall_s", patience.stall_s),
-            ("patience.begin_s", patience.begin_s),
-            ("patience.no_news_s", patience.no_news_s),
-            ("patience.map_timeout_s", patience.map_timeout_s),
-            ("patience.pose_timeout_s", patience.pose_timeout_s),
-            ("patience.navigation_timeout_s", patience.navigation_timeout_s),
-            ("patience.time_limit_s", patience.time_limit_s.unwrap_or(1.0)),
-            ("taboo.radius_m", taboo.radius_m),
-            ("taboo.max_failures", f64::from(taboo.max_failures)),
-            ("taboo.max_visits", f64::from(taboo.max_visits)),
-            ("finish.good_enough_share", self.finish.good_enough_share.unwrap_or(1.0)),
-        ] {
-            OutOfRange::unless_positive(key, value)?;
-        }
-        for (key, value) in [
+        let positive = [
+            ("goal.search_radius_m", Some(goal.search_radius_m)),
+            ("goal.reconsider_period_s", goal.reconsider_period_s),
+            ("goal.beside_way_m", goal.beside_way_m),
+            ("patience.progress_timeout_s", Some(patience.progress_timeout_s)),
+            ("patience.progress_distance_m", Some(patience.progress_distance_m)),
+            ("patience.goal_timeout_s", Some(patience.goal_timeout_s)),
+            ("patience.stall_s", Some(patience.stall_s)),
+            ("patience.begin_s", Some(patience.begin_s)),
+            ("patience.no_news_s", Some(patience.no_news_s)),
+            ("patience.map_timeout_s", Some(patience.map_timeout_s)),
+            ("patience.pose_timeout_s", Some(patience.pose_timeout_s)),
+            ("patience.navigation_timeout_s", Some(patience.navigation_timeout_s)),
+            ("patience.time_limit_s", patience.time_limit_s),
+            ("taboo.radius_m", Some(taboo.radius_m)),
+            ("taboo.max_failures", Some(f64::from(taboo.max_failures))),
+            ("taboo.max_visits", Some(f64::from(taboo.max_visits))),
+        ];
+        let not_negative = [
             ("goal.already_there_m", goal.already_there_m),
             ("goal.commit_radius_m", goal.commit_radius_m),
             ("patience.settle_s", patience.settle_s),
             ("patience.pose_grace_s", patience.pose_grace_s),
             ("patience.failing_s", patience.failing_s),
-        ] {
-            OutOfRange::unless_not_negative(key, value)?;
-        }
-        let share = self.finish.good_enough_share.unwrap_or(1.0);
-        OutOfRange::unless(share <= 1.0, "finish.good_enough_share", share, "above 0 and at most 1")?;
-        self.planner.validate()?;
-        self.selection.validate()?;
-        Ok(self.detector_params().validate()?)
+        ];
+        let share = Range::above(0.0, 1.0, "above 0 and at most 1");
+        let mut numbers = positive.map(|(key, value)| Range::POSITIVE.of(key, value)).to_vec();
+        numbers.extend(not_negative.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)));
+        numbers.push(share.of("finish.good_enough_share", self.finish.good_enough_share));
+        numbers.extend(self.planner.numbers());
+        numbers.extend(self.selection.numbers());
+        numbers
     }
 
     /// The detector's parameters with the thresholds that apply to all detectors.

@@ -3,10 +3,11 @@
 use crate::geometry::{Point, Pose};
 use crate::grid::{Cell, Costmap, LETHAL_COST, NARROW_COST, NEIGHBOURS_8, UNKNOWN_COST};
 use crate::planning::PathField;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which way the robot looks at its goal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum GoalHeading {
     /// Towards the frontier.

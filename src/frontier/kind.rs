@@ -4,10 +4,11 @@ use super::{
     Bitplane, Canny, Dbscan, DetectorParams, ExploreLiteSearch, Fast, FrontierDetector, ImageDetector, Wavefront,
     Yamauchi,
 };
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The detectors by name.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DetectorKind {
     /// The textbook Wavefront Frontier Detector (Topiwala 2018).

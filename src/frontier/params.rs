@@ -3,7 +3,8 @@
 use super::{CannyParams, DbscanParams, DetectError, FastParams, ImageParams};
 use crate::geometry::Pose;
 use crate::grid::{Cell, CellState, GridInfo, Neighbourhood, OccupancyGrid, ThresholdError, Thresholds};
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How far from the robot's own cell a free cell is looked for, metres: sensor noise
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 const SEED_RADIUS_M: f64 = 0.5;
 
 /// Which frontier cells count as within the robot's reach.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Reachability {
     /// The paper's own rule. Topiwala 2018, Fig. 4, line 27: the search walks over any
@@ -62,11 +63,15 @@ impl DetectorParams {
     /// # Errors
     /// [`DetectorParamsError`] that names the value and its range.
     pub fn validate(&self) -> Result<(), DetectorParamsError> {
-        OutOfRange::unless_not_negative("detector.min_size_m", self.min_size_m)?;
-        self.image.validate()?;
-        self.dbscan.validate()?;
-        self.canny.validate()?;
+        Ranged::check_all(self.numbers())?;
         Ok(self.thresholds.validate()?)
+    }
+
+    /// The numbers with their ranges, but for the thresholds.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
+        let min_size = Range::NOT_NEGATIVE.of("detector.min_size_m", self.min_size_m);
+        let of_one = self.image.numbers().into_iter().chain(self.dbscan.numbers()).chain(self.canny.numbers());
+        [min_size].into_iter().chain(of_one).collect()
     }
 
     /// Which cells the search from the robot goes on to.

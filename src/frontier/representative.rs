@@ -3,10 +3,11 @@
 use super::Frontier;
 use crate::geometry::Point;
 use crate::grid::{Cell, GridInfo};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the point is chosen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Representative {
     /// The member nearest to the coordinate-wise median (Topiwala 2018): unlike the

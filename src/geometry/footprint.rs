@@ -1,13 +1,14 @@
 //! The outline of a robot seen from above, as move_base's costmaps take it.
 
 use super::{Point, Pose};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Why a footprint cannot be one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FootprintError {
     /// A radius that is not a positive number of metres.
-    #[error("footprint radius {0} m: must be > 0 and finite")]
+    #[error("footprint.radius_m is {0}: must be finite and > 0")]
     Radius(f64),
     /// Too few corners, or a corner that is not finite.
     #[error("a footprint polygon needs at least 3 finite corners, and {0} usable ones were given")]
@@ -18,12 +19,12 @@ pub enum FootprintError {
 }
 
 /// The robot's outline in its base frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Footprint {
     /// A disc around the base frame's origin, by its radius in metres.
     RadiusM(f64),
-    /// A convex polygon in metres.
+    /// A convex polygon around the base frame's origin: at least 3 corners `[x, y]` in metres.
     PolygonM(Vec<[f64; 2]>),
 }
 

@@ -1,6 +1,7 @@
 //! Velocities of a differential-drive body and what it is able to do.
 
 use super::Pose;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A velocity command or state: `geometry_msgs/Twist` of a robot that cannot slide.
@@ -48,7 +49,7 @@ impl Twist {
 }
 
 /// Speed and acceleration limits of a differential-drive robot.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionLimits {
     /// Largest forward speed, metres per second.

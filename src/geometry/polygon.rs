@@ -2,6 +2,7 @@
 
 use super::Point;
 use geo::{Area, Contains, LineString};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Why a list of corners is no polygon.
@@ -26,7 +27,7 @@ pub enum PolygonError {
 }
 
 /// A simple polygon in metres; the closing edge is implied.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "Vec<[f64; 2]>", into = "Vec<[f64; 2]>")]
 pub struct Polygon {
     corners: Vec<Point>,

@@ -2,11 +2,12 @@
 
 use super::Point;
 use nalgebra::{Isometry2, Vector2};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
 /// A position in metres and a heading in radians, in a frame named by its user.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Pose {
     /// Metres along the frame's x axis.

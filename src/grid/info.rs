@@ -1,6 +1,7 @@
 //! Where a grid lies in the world: the one place of all cell/world mathematics.
 
 use crate::geometry::{Point, Pose, shortest_angle};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The most cells a grid may have: 16384 x 16384.
@@ -23,8 +24,9 @@ pub const NEIGHBOURS_4: [(i32, i32); 4] = [(1, 0), (-1, 0), (0, 1), (0, -1)];
 pub const NEIGHBOURS_8: [(i32, i32); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1)];
 
 /// Which cells count as adjacent; 4 and 8 in configuration files.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "u8", into = "u8")]
+#[schemars(extend("enum" = [4, 8]))]
 pub enum Neighbourhood {
     /// Cells that share a side.
     Four,

@@ -1,5 +1,6 @@
 //! What an occupancy value says about a cell.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The three kinds of territory of Yamauchi 1997 and Topiwala 2018, and a fourth that lies
@@ -19,7 +20,7 @@ pub enum CellState {
 
 /// Thresholds that contradict each other or the range of occupancy values.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("free_max {free_max} and occupied_min {occupied_min}: must satisfy 0 <= free_max < occupied_min <= 100")]
+#[error("free_max {free_max} and occupied_min {occupied_min}: must satisfy {}", Thresholds::ALLOWED)]
 pub struct ThresholdError {
     /// As given.
     pub free_max: i8,
@@ -31,12 +32,12 @@ pub struct ThresholdError {
 /// `nav_msgs/OccupancyGrid`. A value in between has been seen and is neither. The defaults
 /// leave none in between and take every value below 65 as free: Cartographer publishes greys
 /// for what it has seen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Thresholds {
-    /// The largest value that is free.
+    /// The largest value of the map that is free, percent occupied.
     pub free_max: i8,
-    /// The smallest value that is occupied.
+    /// The smallest value of the map that is occupied, percent occupied.
     pub occupied_min: i8,
 }
 
@@ -47,6 +48,9 @@ impl Default for Thresholds {
 }
 
 impl Thresholds {
+    /// What the two must satisfy, in words.
+    pub(crate) const ALLOWED: &'static str = "0 <= free_max < occupied_min <= 100";
+
     /// Checks the order of the two.
     ///
     /// # Errors

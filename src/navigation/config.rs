@@ -1,16 +1,17 @@
 //! Tolerances and patience of the navigator, as settings give them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Tolerances and patience, in the terms of move_base and its local planners.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct NavigatorConfig {
-    /// Seconds between commands.
+    /// Time from one velocity command to the next, seconds.
     pub control_period_s: f64,
     /// A goal is reached within this distance, metres.
     pub xy_goal_tolerance_m: f64,
-    /// And within this heading error, radians.
+    /// A goal is reached within this heading error besides, radians.
     pub yaw_goal_tolerance_rad: f64,
     /// A path that is still free is planned anew after this time, seconds.
     pub replan_period_s: f64,

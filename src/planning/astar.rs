@@ -9,6 +9,28 @@ use crate::geometry::Pose;
 use crate::grid::Costmap;
 
 /// The planner; it keeps its memory between plans.
+///
+/// A path costs what [`Dijkstra`](super::Dijkstra)'s costs, and no corner is cut on the way:
+///
+/// ```
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Costmap, Inflation, OccupancyGrid, Thresholds};
+/// use frontier_explorer::planning::{Astar, Dijkstra, GlobalPlanner, PlanError};
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     ".....
+///      .###.
+///      ...#.",
+/// ).unwrap();
+/// let point_robot =
+///     Inflation { inscribed_radius_m: 0.0, clear_radius_m: 0.0, inflation_radius_m: 0.0, cost_scaling_factor: 1.0 };
+/// let costmap = Costmap::inflate(&grid, &Thresholds::default(), &point_robot);
+/// let (start, goal) = (Pose::new(2.5, 0.5, 0.0), Pose::new(4.5, 0.5, 1.0));
+/// let path = Astar::default().plan(&costmap, &start, &goal)?;
+/// assert_eq!((path.length_m(), path.poses.last()), (10.0, Some(&goal)));
+/// assert_eq!(path.cost, Dijkstra::default().plan(&costmap, &start, &goal)?.cost);
+/// # Ok::<(), PlanError>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Astar {
     search: Search,

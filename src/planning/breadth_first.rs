@@ -13,6 +13,7 @@ use super::lattice::Lattice;
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::Pose;
 use crate::grid::{Costmap, INSCRIBED_COST};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Entry of a cell that the search has not reached.
@@ -21,11 +22,11 @@ const NOT_REACHED: u8 = 0xff;
 const START: u8 = 0xfe;
 
 /// Parameters of the planner.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BreadthFirstConfig {
-    /// The cost up to which a cell leaves room enough beside the way; from 252 on all
-    /// passable cells do.
+    /// The cost of the costmap up to which a cell leaves room enough beside the way. From 252 on
+    /// all passable cells do.
     pub max_cost: u8,
 }
 
@@ -41,6 +42,27 @@ impl Default for BreadthFirstConfig {
 }
 
 /// The planner; it keeps its memory between plans.
+///
+/// A diagonal step counts 1, as any other, and costs count only for `max_cost`:
+///
+/// ```
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Costmap, GridInfo};
+/// use frontier_explorer::planning::{BreadthFirst, BreadthFirstConfig, GlobalPlanner};
+///
+/// let info = GridInfo::new(5, 3, 1.0, Pose::default())?;
+/// #[rustfmt::skip]
+/// let costmap = Costmap::from_costs(info, vec![
+///     0,   0,   0,   0, 0,
+///     0, 200, 200, 200, 0,
+///     0, 200, 200, 200, 0,
+/// ]).unwrap();
+/// let (start, goal) = (Pose::new(0.5, 2.5, 0.0), Pose::new(4.5, 2.5, 0.0));
+/// assert_eq!(BreadthFirst::default().plan(&costmap, &start, &goal)?.cost, 4.0);
+/// let mut with_room = BreadthFirst::new(BreadthFirstConfig { max_cost: 160 });
+/// assert_eq!(with_room.plan(&costmap, &start, &goal)?.cost, 6.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct BreadthFirst {
     config: BreadthFirstConfig,

@@ -14,35 +14,20 @@
 //! changed where it matters. 16 bytes a cell. Limit: a goal without a path costs a
 //! flood of all that is connected to the goal, once.
 
+mod node;
+
 use super::change::{changed_cells, growth, moved};
 use super::endpoints::{goal_index, path_along, start_index};
 use super::lattice::{Lattice, Step};
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::Pose;
 use crate::grid::{Costmap, GridInfo, Neighbourhood, UNKNOWN_COST};
+use node::{INFINITE, NOT_MET, NOT_QUEUED, Node};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// No way is known.
-const INFINITE: u32 = u32::MAX;
-/// The key of a cell that this search has not met.
-const NOT_MET: u64 = u64::MAX;
-/// The key of a cell that waits in no queue.
-const NOT_QUEUED: u64 = u64::MAX - 1;
 /// The sum of the start's moves is reset long before the keys overflow.
 const MAX_KM: u32 = 1 << 30;
-
-/// What the search knows of a cell: the paper's g, rhs and the key in the queue.
-#[derive(Clone, Copy, Debug)]
-struct Node {
-    g: u32,
-    rhs: u32,
-    key: u64,
-}
-
-impl Node {
-    const NEW: Self = Self { g: INFINITE, rhs: INFINITE, key: NOT_MET };
-}
 
 /// What the search belongs to.
 #[derive(Clone, Debug)]
@@ -55,6 +40,27 @@ struct Problem {
 }
 
 /// The planner and its search.
+///
+/// When the map changes, the search is repaired, and gives what [`Astar`](super::Astar) gives anew:
+///
+/// ```
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Cell, Costmap, GridInfo, LETHAL_COST};
+/// use frontier_explorer::planning::{Astar, DStarLite, GlobalPlanner};
+/// use std::collections::HashMap;
+///
+/// let open = Costmap::from_costs(GridInfo::new(40, 40, 1.0, Pose::default())?, vec![0; 1600]).unwrap();
+/// let wall = open.with_costs(&(5..35).map(|y| (Cell::new(20, y), LETHAL_COST)).collect());
+/// let (start, goal) = (Pose::new(0.5, 20.5, 0.0), Pose::new(39.5, 20.5, 0.0));
+/// let mut planner = DStarLite::default();
+/// assert_eq!(planner.plan(&wall, &start, &goal)?.cost, Astar::default().plan(&wall, &start, &goal)?.cost);
+/// let at_first = planner.expansions();
+/// // On its way up the robot meets an obstacle.
+/// let obstacle = wall.with_costs(&HashMap::from([(Cell::new(1, 21), LETHAL_COST)]));
+/// assert_eq!(planner.plan(&obstacle, &start, &goal)?.cost, Astar::default().plan(&obstacle, &start, &goal)?.cost);
+/// assert!(10 * planner.expansions() < at_first, "{} of {at_first}", planner.expansions());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct DStarLite {
     problem: Option<Problem>,

@@ -6,6 +6,7 @@ use super::endpoints::start_index;
 use super::lattice::STRAIGHT;
 use super::reach::{connected, passable};
 use crate::bits::BitPlane;
+use crate::bits::runs::runs_of;
 use crate::geometry::Pose;
 use crate::grid::{Cell, Costmap};
 use std::sync::Arc;
@@ -70,6 +71,11 @@ impl PathField {
     #[must_use]
     pub fn area_m2(&self) -> f64 {
         self.reach.count() as f64 * self.costmap.info().cell_area_m2()
+    }
+
+    /// The columns of a row that the robot can get to.
+    pub(super) fn reached_in_row(&self, y: usize) -> impl Iterator<Item = usize> + '_ {
+        runs_of(self.reach.row(y)).flat_map(|run| run.start as usize..run.end as usize)
     }
 
     /// Whether the robot can get to a cell.

@@ -32,12 +32,13 @@ use super::swept::Swept;
 use super::{GlobalPlanner, Path, PlanError};
 use crate::geometry::{Body, Point, Pose, Twist};
 use crate::grid::{Costmap, GridInfo};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 
 /// What guides the search to the goal.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum HybridHeuristic {
     /// The straight line, as the paper has it: it looks into every dead end on the way.
@@ -50,21 +51,21 @@ pub enum HybridHeuristic {
 }
 
 /// Parameters of the planner.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HybridAstarConfig {
     /// How long a motion primitive lasts (the paper's dt), seconds.
     pub primitive_s: f64,
-    /// Edge of a bin of the state lattice, metres; smaller where a primitive is so
-    /// short that a straight one would end in the bin where it began.
+    /// Edge of a bin of the state lattice, metres. It is smaller where a primitive is so short
+    /// that a straight one would end in the bin where it began.
     pub lattice_m: f64,
     /// Into how many bins the lattice divides the headings.
     pub lattice_headings: u32,
     /// A path that ends within this distance of the goal has found it, metres.
     pub goal_threshold_m: f64,
-    /// Given up after so many expansions, those of the other headings included.
+    /// The search is given up after so many expansions, those of other headings included.
     pub max_expansions: u32,
-    /// What guides the search.
+    /// What guides the search to the goal.
     pub heuristic: HybridHeuristic,
 }
 
@@ -79,20 +80,16 @@ impl HybridAstarConfig {
         heuristic: HybridHeuristic::Euclidean,
     };
 
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless_positive("planner.primitive_s", self.primitive_s)?;
-        OutOfRange::unless_positive("planner.lattice_m", self.lattice_m)?;
-        OutOfRange::unless_positive("planner.goal_threshold_m", self.goal_threshold_m)?;
-        let headings = self.lattice_headings;
-        let in_range = (4..=360).contains(&headings);
-        OutOfRange::unless(in_range, "planner.lattice_headings", f64::from(headings), "4 to 360")?;
-        let expansions = self.max_expansions;
-        let in_range = (1..=10_000_000).contains(&expansions);
-        OutOfRange::unless(in_range, "planner.max_expansions", f64::from(expansions), "1 to 10000000")
+    /// The numbers with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let (headings, expansions) = (f64::from(self.lattice_headings), f64::from(self.max_expansions));
+        vec![
+            Range::POSITIVE.of("planner.primitive_s", self.primitive_s),
+            Range::POSITIVE.of("planner.lattice_m", self.lattice_m),
+            Range::POSITIVE.of("planner.goal_threshold_m", self.goal_threshold_m),
+            Range::within(4.0, 360.0, "4 to 360").of("planner.lattice_headings", headings),
+            Range::within(1.0, 1e7, "1 to 10000000").of("planner.max_expansions", expansions),
+        ]
     }
 }
 
@@ -103,6 +100,23 @@ impl Default for HybridAstarConfig {
 }
 
 /// The planner for one robot.
+///
+/// The robot looks aside: it drives a bow, where other planners lead straight to the goal.
+///
+/// ```
+/// use frontier_explorer::config::builtin_robot;
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Costmap, GridInfo};
+/// use frontier_explorer::planning::{Astar, GlobalPlanner, HybridAstar, HybridAstarConfig};
+///
+/// let costmap = Costmap::from_costs(GridInfo::new(40, 40, 0.1, Pose::default())?, vec![0; 1600]).unwrap();
+/// let (start, goal) = (Pose::new(1.0, 2.0, 0.0), Pose::new(1.0, 3.0, 3.1));
+/// let mut planner = HybridAstar::new(HybridAstarConfig::default(), builtin_robot("turtlebot2")?.body());
+/// let bow = planner.plan(&costmap, &start, &goal)?;
+/// assert!(bow.length_m() > Astar::default().plan(&costmap, &start, &goal)?.length_m());
+/// assert!(bow.poses.iter().any(|pose| pose.x > 1.1), "it begins straight on or in an arc");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct HybridAstar {
     config: HybridAstarConfig,

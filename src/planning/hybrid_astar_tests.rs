@@ -4,6 +4,7 @@
 use super::*;
 use crate::geometry::{Footprint, MotionLimits, shortest_angle};
 use crate::grid::{Cell, Inflation, OccupancyGrid, Thresholds};
+use crate::planning::PlannerConfig;
 use proptest::prelude::*;
 
 const LIMITS: MotionLimits =
@@ -119,10 +120,11 @@ fn gives_up_at_the_limit() {
 
 #[test]
 fn parameters_out_of_range_are_refused() {
+    let validate = |config| PlannerConfig::HybridAstar(config).validate();
     let bad = HybridAstarConfig { lattice_headings: 3, ..HybridAstarConfig::DEFAULT };
-    assert_eq!(bad.validate().unwrap_err().to_string(), "planner.lattice_headings is 3: must be 4 to 360");
+    assert_eq!(validate(bad).unwrap_err().to_string(), "planner.lattice_headings is 3: must be 4 to 360");
     let bad = HybridAstarConfig { primitive_s: 0.0, ..HybridAstarConfig::DEFAULT };
-    assert!(bad.validate().is_err() && HybridAstarConfig::DEFAULT.validate().is_ok());
+    assert!(validate(bad).is_err() && validate(HybridAstarConfig::DEFAULT).is_ok());
 }
 
 proptest! {

@@ -5,6 +5,7 @@ mod breadth_first;
 mod bucket_queue;
 mod canonical;
 mod change;
+mod coarse_ways;
 mod d_star_lite;
 mod dijkstra;
 mod driven;
@@ -21,6 +22,7 @@ mod swept;
 
 pub use astar::Astar;
 pub use breadth_first::{BreadthFirst, BreadthFirstConfig};
+pub use coarse_ways::CoarseWays;
 pub use d_star_lite::DStarLite;
 pub use dijkstra::Dijkstra;
 pub(crate) use driven::{Driven, Opened};
@@ -32,11 +34,12 @@ pub use reach::Passable;
 pub use crate::geometry::Path;
 
 use crate::geometry::Body;
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The planners with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PlannerConfig {
     /// The fewest cells, all passable ones alike (Yamauchi 1997).
@@ -72,9 +75,14 @@ impl PlannerConfig {
     /// # Errors
     /// [`OutOfRange`] that names the key, the value and what is allowed.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::BreadthFirst(_) | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Ok(()),
-            Self::HybridAstar(config) => config.validate(),
+            Self::BreadthFirst(_) | Self::Dijkstra {} | Self::Astar {} | Self::DStarLite {} => Vec::new(),
+            Self::HybridAstar(config) => config.numbers(),
         }
     }
 

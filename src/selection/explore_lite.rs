@@ -10,11 +10,12 @@
 
 use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 use crate::geometry::{Pose, shortest_angle};
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Weights, with the values of explore_lite's launch file.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExploreLiteConfig {
     /// Weight of the distance, per metre and metre of resolution.
@@ -32,18 +33,39 @@ impl Default for ExploreLiteConfig {
 }
 
 impl ExploreLiteConfig {
-    /// Checks the weights.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] for a weight below 0.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        OutOfRange::unless_not_negative("selection.potential_scale", self.potential_scale)?;
-        OutOfRange::unless_not_negative("selection.orientation_scale", self.orientation_scale)?;
-        OutOfRange::unless_not_negative("selection.gain_scale", self.gain_scale)
+    /// The weights with their ranges.
+    pub(super) fn numbers(&self) -> Vec<Ranged> {
+        let weights = [
+            ("selection.potential_scale", self.potential_scale),
+            ("selection.orientation_scale", self.orientation_scale),
+            ("selection.gain_scale", self.gain_scale),
+        ];
+        weights.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)).into()
     }
 }
 
 /// The strategy.
+///
+/// With the scales of its launch file a metre of frontier outweighs six metres of distance at
+/// cells of 0.05 m, since the distance is multiplied by the resolution:
+///
+/// ```
+/// use frontier_explorer::geometry::{Point, Pose};
+/// use frontier_explorer::selection::{
+///     Candidate, ExploreLite, ExploreLiteConfig, GoalSelector, SelectionContext, StraightWays,
+/// };
+///
+/// let robot_in_map = Pose::default();
+/// let at = |x: f64, cells| Candidate {
+///     nearest_m: Some(x),
+///     ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), cells, 0.05, &robot_in_map)
+/// };
+/// let mut selector = ExploreLite(ExploreLiteConfig::default());
+/// let mut ways = StraightWays { robot_in_map };
+/// let scores = selector.score(&[at(1.0, 20), at(7.0, 40)], &mut SelectionContext::straight(&mut ways));
+/// // 3.0 * 1.0 * 0.05 - 1.0 * 1.0, and 3.0 * 7.0 * 0.05 - 1.0 * 2.0
+/// assert!((scores[0].total - -0.85).abs() < 1e-9 && (scores[1].total - -0.95).abs() < 1e-9);
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ExploreLite(pub ExploreLiteConfig);
 
@@ -56,7 +78,7 @@ impl GoalSelector for ExploreLite {
         Needs { nearest: true, ..Needs::default() }
     }
 
-    fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], context: &mut SelectionContext<'_>) -> Vec<Score> {
         let (config, robot) = (self.0, context.robot_in_map);
         candidates
             .iter()

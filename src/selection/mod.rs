@@ -1,21 +1,29 @@
 //! Which frontier next (floor 1): one file for each strategy.
 
 mod explore_lite;
+mod gain_decay;
 mod joint_cost;
 mod max_gain;
 mod mrtsp;
 mod nearest;
+mod open_tour;
 mod radius_distance;
+mod tour;
+mod ways;
 
 pub use explore_lite::{ExploreLite, ExploreLiteConfig};
+pub use gain_decay::{GainDecay, GainDecayConfig};
 pub use joint_cost::{JointCost, JointCostConfig};
 pub use max_gain::MaxGain;
-pub use mrtsp::{EXACT_UP_TO, Mrtsp};
+pub use mrtsp::Mrtsp;
 pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
 pub use radius_distance::RadiusDistance;
+pub use tour::{Tour, TourConfig};
+pub use ways::{StraightWays, Ways};
 
 use crate::geometry::{Point, Pose};
-use crate::range::OutOfRange;
+use crate::range::{OutOfRange, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -43,6 +51,24 @@ pub struct Candidate {
     pub way_m: Option<f64>,
 }
 
+impl Candidate {
+    /// A candidate with what is known of each: its frontier's point and number of cells of
+    /// `resolution_m` metres, and where the robot is and would stand.
+    #[must_use]
+    pub fn new(target: Point, goal: Pose, size_cells: usize, resolution_m: f64, robot_in_map: &Pose) -> Self {
+        Self {
+            target,
+            goal,
+            size_cells,
+            size_m: size_cells as f64 * resolution_m,
+            radius_m: None,
+            distance_m: robot_in_map.distance_to(target),
+            nearest_m: None,
+            way_m: None,
+        }
+    }
+}
+
 /// What takes time to find out of each frontier, and is left out unless needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Needs {
@@ -52,13 +78,26 @@ pub struct Needs {
     pub nearest: bool,
     /// [`Candidate::way_m`].
     pub way: bool,
+    /// [`SelectionContext::ways`] that go round obstacles.
+    pub ways: bool,
 }
 
 /// What a strategy knows besides the candidates.
-#[derive(Clone, Copy, Debug)]
-pub struct SelectionContext {
+pub struct SelectionContext<'a> {
     /// Where the robot is.
     pub robot_in_map: Pose,
+    /// The target that it is on its way to.
+    pub under_way: Option<Point>,
+    /// Ways between places: straight lines unless [`Needs::ways`] asks for more.
+    pub ways: &'a mut dyn Ways,
+}
+
+impl<'a> SelectionContext<'a> {
+    /// That of a robot that is on its way to nothing, where nothing is in the way.
+    #[must_use]
+    pub fn straight(ways: &'a mut StraightWays) -> Self {
+        Self { robot_in_map: ways.robot_in_map, under_way: None, ways }
+    }
 }
 
 /// How good a candidate is: the smallest total is best.
@@ -80,12 +119,18 @@ pub trait GoalSelector: Send {
         Needs::default()
     }
 
+    /// Whether it weighs itself when to give a goal up for a better one; otherwise the
+    /// explorer keeps a goal as long as its frontier is there.
+    fn keeps_goals(&self) -> bool {
+        false
+    }
+
     /// One score for each candidate, in the same order.
-    fn score(&mut self, candidates: &[Candidate], context: &SelectionContext) -> Vec<Score>;
+    fn score(&mut self, candidates: &[Candidate], context: &mut SelectionContext<'_>) -> Vec<Score>;
 }
 
 /// The strategies with their parameters, by name.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "name", rename_all = "snake_case", deny_unknown_fields)]
 pub enum SelectorConfig {
     /// The nearest first (Topiwala 2018, Yamauchi 1997).
@@ -98,8 +143,12 @@ pub enum SelectorConfig {
     JointCost(JointCostConfig),
     /// explore_lite's cost.
     ExploreLite(ExploreLiteConfig),
+    /// The longest first, discounted by its way.
+    GainDecay(GainDecayConfig),
     /// A tour over all frontiers (Scientific Reports 2025).
     Mrtsp {},
+    /// The shortest tour over the real ways, planned anew with every map.
+    Tour(TourConfig),
 }
 
 impl Default for SelectorConfig {
@@ -111,14 +160,16 @@ impl Default for SelectorConfig {
 impl SelectorConfig {
     /// All strategies with their default parameters, for tables of tests and help.
     #[must_use]
-    pub fn all() -> [Self; 6] {
+    pub fn all() -> [Self; 8] {
         [
             Self::default(),
             Self::MaxGain {},
             Self::RadiusDistance {},
             Self::JointCost(JointCostConfig::default()),
             Self::ExploreLite(ExploreLiteConfig::default()),
+            Self::GainDecay(GainDecayConfig::default()),
             Self::Mrtsp {},
+            Self::Tour(TourConfig::default()),
         ]
     }
 
@@ -127,10 +178,17 @@ impl SelectorConfig {
     /// # Errors
     /// [`OutOfRange`] that names the parameter.
     pub fn validate(&self) -> Result<(), OutOfRange> {
+        Ranged::check_all(self.numbers())
+    }
+
+    /// The numbers with their ranges.
+    pub(crate) fn numbers(&self) -> Vec<Ranged> {
         match self {
-            Self::JointCost(config) => config.validate(),
-            Self::ExploreLite(config) => config.validate(),
-            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Ok(()),
+            Self::JointCost(config) => config.numbers(),
+            Self::ExploreLite(config) => config.numbers(),
+            Self::GainDecay(config) => config.numbers(),
+            Self::Tour(config) => config.numbers(),
+            Self::Nearest(_) | Self::MaxGain {} | Self::RadiusDistance {} | Self::Mrtsp {} => Vec::new(),
         }
     }
 
@@ -143,7 +201,9 @@ impl SelectorConfig {
             Self::RadiusDistance {} => Box::new(RadiusDistance),
             Self::JointCost(config) => Box::new(JointCost(config)),
             Self::ExploreLite(config) => Box::new(ExploreLite(config)),
+            Self::GainDecay(config) => Box::new(GainDecay(config)),
             Self::Mrtsp {} => Box::new(Mrtsp),
+            Self::Tour(config) => Box::new(Tour(config)),
         }
     }
 }

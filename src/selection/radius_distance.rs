@@ -9,6 +9,23 @@ use super::{Candidate, GoalSelector, Needs, Score, SelectionContext};
 const NEAREST_M: f64 = 1e-3;
 
 /// The strategy.
+///
+/// Twice the radius makes up for twice the distance, and no more:
+///
+/// ```
+/// use frontier_explorer::geometry::{Point, Pose};
+/// use frontier_explorer::selection::{Candidate, GoalSelector, RadiusDistance, SelectionContext, StraightWays};
+///
+/// let robot_in_map = Pose::new(1.0, 0.0, 0.0);
+/// let circles = [(3.0, 0.5), (5.0, 1.0), (9.0, 1.0)].map(|(x, radius_m)| Candidate {
+///     radius_m: Some(radius_m),
+///     ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), 10, 0.05, &robot_in_map)
+/// });
+/// let mut ways = StraightWays { robot_in_map };
+/// let scores = RadiusDistance.score(&circles, &mut SelectionContext::straight(&mut ways));
+/// assert_eq!(scores.iter().map(|score| score.parts["e"]).collect::<Vec<_>>(), [0.25, 0.25, 0.125]);
+/// assert_eq!(scores[0].total, -0.25);
+/// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RadiusDistance;
 
@@ -21,7 +38,7 @@ impl GoalSelector for RadiusDistance {
         Needs { radius: true, ..Needs::default() }
     }
 
-    fn score(&mut self, candidates: &[Candidate], _: &SelectionContext) -> Vec<Score> {
+    fn score(&mut self, candidates: &[Candidate], _: &mut SelectionContext<'_>) -> Vec<Score> {
         candidates
             .iter()
             .map(|c| {

@@ -5,22 +5,20 @@ use super::*;
 /// Near and small, far and large, in between behind a detour.
 fn candidates() -> Vec<Candidate> {
     let at = |x: f64, size_m: f64, radius_m: f64, way_m: f64| Candidate {
-        target: Point::new(x, 0.0),
-        goal: Pose::new(x, 0.0, 0.0),
-        size_cells: (size_m * 20.0) as usize,
-        size_m,
         radius_m: Some(radius_m),
-        distance_m: x,
         nearest_m: Some(x),
         way_m: Some(way_m),
+        ..Candidate::new(Point::new(x, 0.0), Pose::new(x, 0.0, 0.0), (size_m * 20.0) as usize, 0.05, &Pose::default())
     };
     vec![at(1.0, 0.3, 0.15, 9.0), at(8.0, 6.0, 3.0, 8.0), at(3.0, 2.0, 1.2, 4.0)]
 }
 
 /// Indices from best to worst.
 fn order(config: SelectorConfig) -> Vec<usize> {
-    let context = SelectionContext { robot_in_map: Pose::default() };
-    let scores = config.build().score(&candidates(), &context);
+    let robot_in_map = Pose::default();
+    let mut ways = StraightWays { robot_in_map };
+    let mut context = SelectionContext::straight(&mut ways);
+    let scores = config.build().score(&candidates(), &mut context);
     let mut order: Vec<usize> = (0..scores.len()).collect();
     order.sort_by(|&a, &b| scores[a].total.total_cmp(&scores[b].total));
     order
@@ -45,6 +43,9 @@ fn each_strategy_has_its_own_order() {
         (explore_lite(60.0), [0, 2, 1]),
         // 4 / 2 + 2 / 0.3 + 7 / 6 = 9.8
         (SelectorConfig::Mrtsp {}, [2, 0, 1]),
+        // 0.3 e^-0.9, 6 e^-0.8, 2 e^-0.4
+        (SelectorConfig::GainDecay(GainDecayConfig::default()), [1, 2, 0]),
+        (SelectorConfig::Tour(TourConfig::default()), [0, 2, 1]),
     ] {
         assert_eq!(order(config), expected, "{config:?}");
     }
@@ -52,11 +53,13 @@ fn each_strategy_has_its_own_order() {
 
 #[test]
 fn scores_are_finite_name_their_parts_and_come_one_for_each() {
-    let context = SelectionContext { robot_in_map: Pose::default() };
+    let robot_in_map = Pose::default();
+    let mut ways = StraightWays { robot_in_map };
+    let mut context = SelectionContext::straight(&mut ways);
     for config in SelectorConfig::all() {
         let mut selector = config.build();
-        assert!(selector.score(&[], &context).is_empty());
-        let scores = selector.score(&candidates(), &context);
+        assert!(selector.score(&[], &mut context).is_empty());
+        let scores = selector.score(&candidates(), &mut context);
         assert_eq!(scores.len(), 3);
         assert!(scores.iter().all(|s| s.total.is_finite() && !s.parts.is_empty()), "{}", selector.name());
         let yaml = serde_json::to_value(config).unwrap();

@@ -75,6 +75,10 @@ impl Explorer {
                 State::Driving(drive) => drive.is_beside.then_some(drive.target),
                 _ => None,
             },
+            under_way: match &self.state {
+                State::Driving(drive) => Some(drive.target),
+                _ => None,
+            },
         };
         let decided = match self.lookout.decide(&situation, observation, map) {
             Ok(decided) => decided,
@@ -133,7 +137,8 @@ impl Explorer {
                 let goal = &self.settings.goal;
                 let is_same = drive.goal.distance_to(choice.goal.position()) < goal.already_there_m;
                 let comes_first = choice.is_beside && !drive.is_beside;
-                if is_same || !comes_first && decided.is_open_near(drive.target, goal.commit_radius_m) {
+                let is_kept = !self.lookout.keeps_goals() && decided.is_open_near(drive.target, goal.commit_radius_m);
+                if is_same || !comes_first && is_kept {
                     drive.considered_s = map.stamp_s;
                     drive.considered_version = map.version();
                     drive.done_at = None;

@@ -23,6 +23,21 @@ use crate::grid::{Cell, Neighbourhood};
 use std::sync::Arc;
 
 /// The detector, with the buffers it keeps between maps.
+///
+/// The cells of all frontiers are one list, of which each frontier has a part:
+///
+/// ```
+/// use frontier_explorer::frontier::{DetectionInput, DetectorParams, FromScratch};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Cell, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii("??##?\n.....").unwrap();
+/// let mut detector = FromScratch::new(DetectorParams::default());
+/// let found = detector.detect_cells(&DetectionInput::new(&grid, Pose::new(2.5, 0.5, 0.0)))?;
+/// let frontiers: Vec<&[Cell]> = found.iter().collect();
+/// assert_eq!(frontiers, [&[Cell::new(0, 1), Cell::new(1, 1)][..], &[Cell::new(4, 1)]]);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct FromScratch {
     params: DetectorParams,

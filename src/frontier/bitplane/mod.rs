@@ -17,6 +17,25 @@ use crate::grid::Neighbourhood;
 use std::sync::Arc;
 
 /// The detector: both engines, with what they keep from map to map.
+///
+/// The frontiers are those of the textbook, on a first map and on the ones after it:
+///
+/// ```
+/// use frontier_explorer::frontier::{Bitplane, DetectionInput, DetectorParams, FrontierDetector, Wavefront};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::OccupancyGrid;
+///
+/// let params = DetectorParams::default();
+/// let (mut fast, mut textbook) = (Bitplane::new(params), Wavefront::new(params));
+/// for (drawing, count) in [("????\n#..?\n#..?", 1), ("##??\n#..?\n#..?", 1), ("##?#\n#..#\n#..?", 2)] {
+///     let grid = OccupancyGrid::from_ascii(drawing).unwrap();
+///     let input = DetectionInput::new(&grid, Pose::new(1.5, 0.5, 0.0));
+///     let found = fast.detect(&input)?;
+///     assert_eq!(found.len(), count);
+///     assert_eq!(found, textbook.detect(&input)?);
+/// }
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Bitplane {
     from_scratch: FromScratch,

@@ -22,6 +22,23 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// The detector, with what it knows of the last map.
+///
+/// It looks where it is told that the map changed, and nowhere else:
+///
+/// ```
+/// use frontier_explorer::frontier::{DetectionInput, DetectorParams, Repair};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Cell, CellRect, OccupancyGrid};
+///
+/// let mut grid = OccupancyGrid::from_ascii("?.....?").unwrap();
+/// let robot = Pose::new(3.5, 0.5, 0.0);
+/// let mut detector = Repair::new(DetectorParams::default());
+/// assert_eq!(detector.update(&DetectionInput::new(&grid, robot), None)?.iter().count(), 2);
+/// grid.set(Cell::new(0, 0), OccupancyGrid::OCCUPIED);
+/// let changed = CellRect { x: 0, y: 0, width: 1, height: 1 };
+/// assert_eq!(detector.update(&DetectionInput::new(&grid, robot), Some(changed))?.iter().count(), 1);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Repair {
     params: DetectorParams,

@@ -40,6 +40,24 @@ const GREY: u8 = 127;
 const BLACK: u8 = 0;
 
 /// The detector.
+///
+/// What the costmap blocks is black in the picture, and its edge is none of the unknown's:
+///
+/// ```
+/// use frontier_explorer::frontier::{Canny, DetectionInput, DetectorParams, FrontierDetector};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Costmap, INSCRIBED_COST, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii(&[".......???????"; 12].join("\n")).unwrap();
+/// let (info, mut detector) = (*grid.info(), Canny::new(DetectorParams::default()));
+/// let map_alone = DetectionInput::new(&grid, Pose::new(1.5, 6.5, 0.0));
+/// assert_eq!(detector.detect(&map_alone)?.len(), 1);
+/// // The robot's centre cannot be within two cells of the boundary.
+/// let costs = (0..info.len()).map(|index| if info.cell(index).x < 5 { 0 } else { INSCRIBED_COST }).collect();
+/// let costmap = Costmap::from_costs(info, costs).unwrap();
+/// assert_eq!(detector.detect(&DetectionInput { costmap: Some(&costmap), ..map_alone })?.len(), 0);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Canny {
     params: DetectorParams,
@@ -166,7 +184,7 @@ mod tests {
 
     #[test]
     fn thresholds_out_of_order_are_refused() {
-        let error = |params: CannyParams| params.validate().unwrap_err().to_string();
+        let error = |canny| DetectorParams { canny, ..DetectorParams::default() }.validate().unwrap_err().to_string();
         let swapped = CannyParams { low_threshold: 200.0, ..CannyParams::default() };
         assert_eq!(error(swapped), "detector.canny.high_threshold is 120: must be finite and >= low_threshold");
         let zero = CannyParams { low_threshold: 0.0, ..CannyParams::default() };

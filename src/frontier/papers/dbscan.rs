@@ -25,6 +25,28 @@ use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Fro
 use crate::grid::{Cell, GridInfo};
 
 /// The detector.
+///
+/// A gap of one cell is noise beside an opening of seven, until two cells make a cluster:
+///
+/// ```
+/// use frontier_explorer::frontier::{Dbscan, DetectionInput, DetectorParams, FrontierDetector};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Neighbourhood, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     "#?##########???????
+///      ...................",
+/// ).unwrap();
+/// let input = DetectionInput::new(&grid, Pose::new(5.5, 0.5, 0.0));
+/// let mut params = DetectorParams { neighbours: Neighbourhood::Four, ..DetectorParams::default() };
+/// let sizes = |params| -> Result<Vec<usize>, frontier_explorer::frontier::DetectError> {
+///     Ok(Dbscan::new(params).detect(&input)?.iter().map(|frontier| frontier.cells.len()).collect())
+/// };
+/// assert_eq!(sizes(params)?, [7]);
+/// params.dbscan.min_samples = 1;
+/// assert_eq!(sizes(params)?, [1, 7]);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Dbscan {
     params: DetectorParams,

@@ -10,6 +10,23 @@ use crate::frontier::{DetectError, DetectionInput, DetectorParams, Frontier, Fro
 use crate::grid::Neighbourhood;
 
 /// The detector.
+///
+/// A corner does not make a frontier cell, as it does for [`Wavefront`](crate::frontier::Wavefront):
+///
+/// ```
+/// use frontier_explorer::frontier::{DetectionInput, DetectorParams, ExploreLiteSearch, FrontierDetector, Wavefront};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::OccupancyGrid;
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     "##?
+///      ..#",
+/// ).unwrap();
+/// let (input, params) = (DetectionInput::new(&grid, Pose::new(0.5, 0.5, 0.0)), DetectorParams::default());
+/// assert_eq!(Wavefront::new(params).detect(&input)?.len(), 1);
+/// assert_eq!(ExploreLiteSearch::new(params).detect(&input)?.len(), 0);
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ExploreLiteSearch(Bitplane);
 

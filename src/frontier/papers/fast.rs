@@ -45,6 +45,28 @@ use crate::grid::{Cell, CellState, GridInfo, NEIGHBOURS_8, OccupancyGrid};
 use contour::contour;
 
 /// The detector, with what it knows from its last call.
+///
+/// The newest scan points to the right, where a wall came to light; on the left, out of its sight,
+/// the unknown was uncovered as well. The paper's detector does not notice the latter:
+///
+/// ```
+/// use frontier_explorer::frontier::{DetectionInput, DetectorParams, Fast, FastParams, FrontierDetector};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::OccupancyGrid;
+/// use frontier_explorer::scan::LaserScan;
+///
+/// let [before, after] = ["?...........?", "#...........#"].map(|map| OccupancyGrid::from_ascii(map).unwrap());
+/// let robot = Pose::new(6.5, 0.5, 0.0);
+/// let scan = LaserScan { angle_increment_rad: 0.01, range_max_m: 20.0, ranges_m: vec![6.0; 3], ..LaserScan::default() };
+/// let left_over = |changed_cells| -> Result<usize, frontier_explorer::frontier::DetectError> {
+///     let fast = FastParams { changed_cells };
+///     let mut detector = Fast::new(DetectorParams { fast, ..DetectorParams::default() });
+///     assert_eq!(detector.detect(&DetectionInput::new(&before, robot))?.len(), 2);
+///     Ok(detector.detect(&DetectionInput { scan: Some((&robot, &scan)), ..DetectionInput::new(&after, robot) })?.len())
+/// };
+/// assert_eq!((left_over(false)?, left_over(true)?), (1, 0));
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Fast {
     params: DetectorParams,

@@ -28,6 +28,27 @@ use crate::geometry::{Circle, Point};
 use crate::grid::{Cell, GridInfo, Neighbourhood};
 
 /// The detector.
+///
+/// Each frontier comes with the circle that [`RadiusDistance`](crate::selection::RadiusDistance)
+/// weighs. B is one cell here; of a boundary the cells on its right or upper side count:
+///
+/// ```
+/// use frontier_explorer::frontier::{CellSide, DetectionInput, DetectorParams, FrontierDetector, ImageDetector};
+/// use frontier_explorer::geometry::{Point, Pose};
+/// use frontier_explorer::grid::OccupancyGrid;
+///
+/// let grid = OccupancyGrid::from_ascii(
+///     "...??
+///      ...??
+///      ...??",
+/// ).unwrap();
+/// let input = DetectionInput::new(&grid, Pose::new(0.5, 1.5, 0.0));
+/// let found = ImageDetector::new(DetectorParams::default()).detect(&input)?;
+/// let circle = found[0].circle.unwrap();
+/// assert_eq!((found.len(), found[0].cells.len(), found[0].side), (1, 3, CellSide::Either));
+/// assert_eq!((circle.center, circle.radius_m), (Point::new(3.5, 1.5), 1.0));
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct ImageDetector {
     params: DetectorParams,

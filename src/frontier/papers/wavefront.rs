@@ -32,6 +32,26 @@ const FRONTIER_OPEN: u8 = 4;
 const FRONTIER_CLOSE: u8 = 8;
 
 /// The detector.
+///
+/// The cells of a frontier lie in the unknown. By the textbook the search steps through a wall of
+/// one cell, and finds what lies behind:
+///
+/// ```
+/// use frontier_explorer::frontier::{DetectionInput, DetectorParams, FrontierDetector, Reachability, Wavefront};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Cell, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii("..#..?").unwrap();
+/// let input = DetectionInput::new(&grid, Pose::new(0.5, 0.5, 0.0));
+/// let found = |reachability| {
+///     let params = DetectorParams { reachability, ..DetectorParams::default() };
+///     Wavefront::new(params).detect(&input)
+/// };
+/// assert!(found(Reachability::WallsBlock)?.is_empty());
+/// let behind = found(Reachability::Textbook)?;
+/// assert_eq!((behind.len(), behind[0].cells[0]), (1, Cell::new(5, 0)));
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Wavefront {
     params: DetectorParams,

@@ -16,6 +16,25 @@ use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Fro
 use crate::grid::Cell;
 
 /// The detector.
+///
+/// The cells of a frontier are free ones. The paper leaves it to the planner to find out which
+/// regions can be reached, here that behind three cells of wall:
+///
+/// ```
+/// use frontier_explorer::frontier::{CellSide, DetectionInput, DetectorParams, FrontierDetector, Reachability, Yamauchi};
+/// use frontier_explorer::geometry::Pose;
+/// use frontier_explorer::grid::{Cell, OccupancyGrid};
+///
+/// let grid = OccupancyGrid::from_ascii("?..###.?").unwrap();
+/// let input = DetectionInput::new(&grid, Pose::new(2.5, 0.5, 0.0));
+/// let mut params = DetectorParams::default();
+/// let within_reach = Yamauchi::new(params).detect(&input)?;
+/// assert_eq!((within_reach.len(), within_reach[0].cells[0]), (1, Cell::new(1, 0)));
+/// params.reachability = Reachability::Textbook;
+/// let all = Yamauchi::new(params).detect(&input)?;
+/// assert_eq!((all.len(), all[1].cells[0], all[1].side), (2, Cell::new(6, 0), CellSide::Free));
+/// # Ok::<(), frontier_explorer::frontier::DetectError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Yamauchi {
     params: DetectorParams,

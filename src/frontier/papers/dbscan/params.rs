@@ -1,13 +1,14 @@
 //! What the DBSCAN detector alone reads: how near and how many the cells of a cluster are.
 
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// No cluster is wider in its links than this many cells.
 const MAX_EPS_CELLS: f64 = 100.0;
 
 /// Parameters of DBSCAN.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DbscanParams {
     /// Cells whose centres are at most so far apart are neighbours, cells.
@@ -23,18 +24,11 @@ impl Default for DbscanParams {
 }
 
 impl DbscanParams {
-    /// Checks the numbers.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        let eps = self.eps_cells;
-        OutOfRange::unless(
-            (1.0..=MAX_EPS_CELLS).contains(&eps),
-            "detector.dbscan.eps_cells",
-            eps,
-            "within 1 to 100 cells",
-        )?;
-        OutOfRange::unless_positive("detector.dbscan.min_samples", f64::from(self.min_samples))
+    /// The numbers with their ranges.
+    pub(in crate::frontier) fn numbers(&self) -> [Ranged; 2] {
+        [
+            Range::within(1.0, MAX_EPS_CELLS, "within 1 to 100 cells").of("detector.dbscan.eps_cells", self.eps_cells),
+            Range::POSITIVE.of("detector.dbscan.min_samples", f64::from(self.min_samples)),
+        ]
     }
 }

@@ -1,14 +1,15 @@
 //! What the image detector alone reads: the size of its structuring element.
 
 use crate::grid::GridInfo;
-use crate::range::OutOfRange;
+use crate::range::{Range, Ranged};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Half of B in cells, where the resolution would ask for more: what a byte counts.
 const MAX_HALF_CELLS: f64 = 254.0;
 
 /// Parameters of the image processing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ImageParams {
     /// Side of the square structuring element B, metres.
@@ -22,13 +23,9 @@ impl Default for ImageParams {
 }
 
 impl ImageParams {
-    /// Checks the numbers.
-    ///
-    /// # Errors
-    /// [`OutOfRange`] that names the key, the value and what is allowed.
-    pub fn validate(&self) -> Result<(), OutOfRange> {
-        let side = self.element_m;
-        OutOfRange::unless((0.0..=5.0).contains(&side), "detector.image.element_m", side, "within 0 to 5 m")
+    /// The numbers with their ranges.
+    pub(in crate::frontier) fn numbers(&self) -> [Ranged; 1] {
+        [Range::within(0.0, 5.0, "within 0 to 5 m").of("detector.image.element_m", self.element_m)]
     }
 
     /// How far B reaches to each side of its centre, cells.

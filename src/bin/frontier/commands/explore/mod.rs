@@ -5,7 +5,7 @@ mod progress;
 use crate::exit::Outcome;
 use crate::{inputs, output, stop, values};
 use anyhow::Context;
-use frontier_explorer::config::{Preset, RobotConfig};
+use frontier_explorer::config::{Explained, Preset, RobotConfig};
 use frontier_explorer::explore::{End, run as explore};
 use frontier_explorer::geometry::Pose;
 use frontier_explorer::io::{load_preset, load_robot, load_world};
@@ -62,7 +62,7 @@ pub struct Args {
     /// Record the run in a bag: map, transforms, scans, odometry, goals and results.
     #[arg(long, value_name = "BAG")]
     bag: Option<PathBuf>,
-    /// Print the whole configuration, defaults included, and do nothing.
+    /// Print the whole configuration, defaults included, each setting explained, and do nothing.
     #[arg(long)]
     print_config: bool,
     /// Print nothing but errors.
@@ -82,8 +82,7 @@ fn parse_style(text: &str) -> Result<MapStyle, String> {
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     let (preset, robot) = (configured_preset(args)?, configured_robot(args)?);
     if args.print_config {
-        let text = serde_saphyr::to_string(&preset).context("cannot write the configuration as YAML")?;
-        output::line(format_args!("{}", text.trim_end()))?;
+        output::line(format_args!("{}", Explained::preset(&preset)?.yaml().trim_end()))?;
         return Ok(Outcome::Done);
     }
     let began = Instant::now();
