@@ -20,7 +20,6 @@
 //! - [`selection`]: which frontier next, by [`SelectorConfig`](selection::SelectorConfig).
 //! - [`planning`]: paths over costmaps, by [`PlannerConfig`](planning::PlannerConfig).
 //! - [`control`]: from paths to velocities, by [`ControllerConfig`](control::ControllerConfig).
-//! - [`matching`]: where a scan fits on a map.
 //!
 //! The pipeline:
 //! - [`robot`]: the port, [`Robot`](robot::Robot), behind which simulators, bags and robots stand.
