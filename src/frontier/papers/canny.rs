@@ -27,7 +27,7 @@ mod params;
 pub use params::CannyParams;
 
 use crate::bits::BitPlane;
-use crate::frontier::papers::states::group;
+use crate::frontier::papers::groups::group;
 use crate::frontier::papers::territory::{Territory, cells, with_neighbours};
 use crate::frontier::{CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, number};
 use crate::grid::{Cell, Neighbourhood, Thresholds, UNKNOWN_COST};

@@ -56,7 +56,7 @@ impl FrontierDetector for ExploreLiteSearch {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frontier::papers::states::group;
+    use crate::frontier::papers::groups::group;
     use crate::frontier::random_maps::noise;
     use crate::frontier::{CellSide, number};
     use crate::geometry::Pose;

@@ -37,7 +37,8 @@ mod params;
 
 pub use params::FastParams;
 
-use crate::frontier::papers::states::{OPEN, Plane, group, set_cells};
+use crate::frontier::papers::groups::{group, set_cells};
+use crate::frontier::papers::territory::{Territory, cells};
 use crate::frontier::{
     CellSide, DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector, Reachability, number,
 };
@@ -99,8 +100,9 @@ impl Fast {
     fn start_over(&self, grid: &OccupancyGrid) -> Known {
         let info = *grid.info();
         let mut is_frontier = vec![false; info.len()];
-        let cells = Plane::new(grid, &self.params.thresholds).open_beside_unknown(self.params.neighbours);
-        for index in cells.into_iter().filter_map(|cell| info.index(cell)) {
+        let territory = Territory::whole(grid, &self.params.thresholds);
+        let found = cells(&territory.open_beside_unknown(self.params.neighbours));
+        for index in found.into_iter().filter_map(|cell| info.index(cell)) {
             is_frontier[index] = true;
         }
         Known { info, is_frontier, grid: self.keep(grid) }
@@ -159,13 +161,13 @@ impl FrontierDetector for Fast {
         self.params.seed(input.grid, &input.robot_in_map)?;
         let known = self.look(input);
         let info = known.info;
-        let mut cells = set_cells(&info, &known.is_frontier);
+        let mut found = set_cells(&info, &known.is_frontier);
         self.known = Some(known);
         if self.params.reachability == Reachability::WallsBlock {
-            let plane = Plane::of(input, &self.params)?;
-            cells.retain(|&cell| plane.state(cell) == OPEN);
+            let open = Territory::of(input, &self.params)?.open;
+            found.retain(|&cell| open.contains(cell));
         }
-        let mut frontiers = group(&info, &cells, self.params.neighbours);
+        let mut frontiers = group(&info, &found, self.params.neighbours);
         let min_cells = self.params.min_cells(&info);
         frontiers.retain(|cells| cells.len() >= min_cells);
         Ok(number(frontiers, CellSide::Free))

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::frontier::Reachability;
-use crate::frontier::papers::states::group;
+use crate::frontier::papers::groups::group;
 use crate::geometry::Pose;
 use crate::grid::{OccupancyGrid, Thresholds};
 use proptest::prelude::*;

@@ -9,7 +9,7 @@ use crate::bits::runs::{Run, runs_of};
 use crate::bits::window::Window;
 use crate::bits::{BitPlane, BitPlanes};
 use crate::frontier::{DetectError, DetectionInput, DetectorParams, Reachability};
-use crate::grid::{Cell, Neighbourhood};
+use crate::grid::{Cell, Neighbourhood, OccupancyGrid, Thresholds};
 
 /// The grid by what its cells mean to a detector.
 pub(crate) struct Territory {
@@ -26,17 +26,18 @@ impl Territory {
     /// [`DetectError`] when the robot is off the map or nowhere near free space.
     pub fn of(input: &DetectionInput<'_>, params: &DetectorParams) -> Result<Self, DetectError> {
         let seed = params.seed(input.grid, &input.robot_in_map)?;
+        let mut this = Self::whole(input.grid, &params.thresholds);
+        if params.reachability == Reachability::WallsBlock {
+            Connectivity::by(params.search_neighbours()).find(this.planes.free(), seed, &mut this.open);
+        }
+        Ok(this)
+    }
+
+    /// All of a grid, wherever the robot is.
+    pub fn whole(grid: &OccupancyGrid, thresholds: &Thresholds) -> Self {
         let mut planes = BitPlanes::default();
-        planes.pack(input.grid, &params.thresholds);
-        let open = match params.reachability {
-            Reachability::Textbook => planes.free().clone(),
-            Reachability::WallsBlock => {
-                let mut open = BitPlane::default();
-                Connectivity::by(params.search_neighbours()).find(planes.free(), seed, &mut open);
-                open
-            }
-        };
-        Ok(Self { planes, open })
+        planes.pack(grid, thresholds);
+        Self { open: planes.free().clone(), planes }
     }
 
     /// The open cells beside an unknown one: the frontier cells of Yamauchi.
@@ -117,7 +118,7 @@ mod tests {
                     let expected = set.contains(&cell) || info.neighbours(cell, neighbours).any(|n| set.contains(&n));
                     prop_assert_eq!(grown.contains(cell), expected);
                 }
-                let mut expected = crate::frontier::papers::states::group(&info, &set, neighbours);
+                let mut expected = crate::frontier::papers::groups::group(&info, &set, neighbours);
                 expected.iter_mut().for_each(|group| group.sort_unstable_by_key(|c| (c.y, c.x)));
                 let found: Vec<Vec<Cell>> = components(&plane, neighbours).iter().map(|runs| cells_of(runs)).collect();
                 prop_assert_eq!(found, expected);
