@@ -47,8 +47,7 @@ pub use message::{
     pose, scan, transforms,
 };
 pub use open::open_bag;
-pub(crate) use playback::Playback;
-pub use playback::PlayedMessage;
+pub use playback::{Playback, PlayedMessage};
 pub use reader::{BagError, BagReader};
 pub use scanner::BagScanner;
 pub use skew::Skew;
