@@ -206,6 +206,11 @@ impl GlobalPlanner for HybridAstar {
         let mut result = Err(PlanError::no_path(goal_point));
         for quarter in [0.0, 1.0, 3.0, 2.0] {
             let turned = Pose::new(first.x, first.y, crate::geometry::normalize_angle(first.yaw + quarter * FRAC_PI_2));
+            // The robot turns to no heading in which its outline would touch; the one that it has
+            // it must leave in any case.
+            if quarter != 0.0 && !swept.is_free(&turned) {
+                continue;
+            }
             match search(&task, turned, &mut left) {
                 Outcome::Found(poses, length_m) => {
                     result = Ok(complete(poses, length_m, start_in_map, goal_in_map, &swept));
