@@ -3,6 +3,7 @@
 use super::indexed::IndexedBag;
 use super::layout::Layout;
 use super::reader::{BagError, BagReader};
+use super::record::MAGIC;
 use super::scanner::BagScanner;
 use std::io::{Read, Seek};
 use std::path::Path;
@@ -16,7 +17,7 @@ use std::path::Path;
 pub fn open_bag<R: Read + Seek + 'static>(path: &Path, file: R) -> Result<Box<dyn BagReader>, BagError> {
     let mut scanner = BagScanner::new(file)?;
     let layout = Layout::of(&mut scanner.input)?;
-    scanner.begin()?;
+    scanner.seek(MAGIC.len() as u64)?;
     // A file that cannot be mapped into memory can still be read.
     match layout.and_then(|layout| Some((layout, rosbag::RosBag::new(path).ok()?))) {
         Some((layout, bag)) => Ok(Box::new(IndexedBag::new(bag, layout, scanner))),

@@ -46,11 +46,6 @@ impl<R: Read + Seek> BagScanner<R> {
         Ok(Self { input, is_indexed: false, connections, problems })
     }
 
-    /// Goes back to the first record.
-    pub(super) fn begin(&mut self) -> io::Result<()> {
-        self.input.go_to(MAGIC.len() as u64)
-    }
-
     /// The data of a chunk, without its compression.
     fn expand(&mut self, record: &Record, chunk: &mut Chunk) -> io::Result<()> {
         let offset = record.offset;

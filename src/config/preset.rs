@@ -129,9 +129,7 @@ impl Preset {
         self.explorer.validate()?;
         Ok(Ranged::check_all(self.navigation.numbers())?)
     }
-}
 
-impl Preset {
     /// The ranges of all numbers, by their paths.
     pub(super) fn ranges(&self) -> BTreeMap<String, Range> {
         let explorer = &self.explorer;

@@ -82,13 +82,17 @@ impl CoarseWays {
         to.into_iter().map(|index| self.length_m(index.map_or(UNREACHED, |index| self.cost[index]))).collect()
     }
 
-    /// How far the robot would have to turn to set out for a place, radians, 0 to pi; 0 where
-    /// no way is known.
+    /// How long the way from the robot to a place is, metres, infinite where there is none; and
+    /// how far it would have to turn to set out, radians, 0 to pi, 0 where no way is known.
     #[must_use]
-    pub fn turn_rad(&self, to: Point) -> f64 {
-        let Some(mut index) = self.open_near(to).filter(|&index| self.from_robot[index] < UNREACHED) else {
-            return 0.0;
-        };
+    pub fn set_out(&self, to: Point) -> (f64, f64) {
+        let reached = self.open_near(to).filter(|&index| self.from_robot[index] < UNREACHED);
+        reached.map_or((f64::INFINITY, 0.0), |index| (self.length_m(self.from_robot[index]), self.turn_rad(index)))
+    }
+
+    /// How far the robot would have to turn to set out for a cell that it gets to, radians.
+    fn turn_rad(&self, to: usize) -> f64 {
+        let mut index = to;
         let robot = self.robot.position();
         let mut ahead = None;
         // From the place back: each cell of the way that lies nearer is tried until one is in sight.
@@ -98,8 +102,9 @@ impl CoarseWays {
                 ahead = Some(here);
                 break;
             }
-            let back =
-                self.beside(index).filter(|&(_, next)| self.open[next]).min_by_key(|&(_, next)| self.from_robot[next]);
+            let back = beside(self.width, index)
+                .filter(|&(_, next)| self.open[next])
+                .min_by_key(|&(_, next)| self.from_robot[next]);
             match back {
                 Some((_, next)) if self.from_robot[next] < self.from_robot[index] => index = next,
                 _ => break,
@@ -151,10 +156,6 @@ impl CoarseWays {
                 }
             }
         }
-    }
-
-    fn beside(&self, index: usize) -> impl Iterator<Item = (u32, usize)> + use<> {
-        beside(self.width, index)
     }
 
     /// The coarse cell of a point, in columns and rows of the coarse grid with its margin.
@@ -223,16 +224,22 @@ mod tests {
         let (from, to) = (Point::new(0.5, 0.5), [Point::new(3.5, 0.5), Point::new(0.5, 2.5), Point::new(0.5, 0.5)]);
         assert_eq!(ways.lengths_m(from, &to), [3.0, 2.0, 0.0]);
         let round = ways.lengths_m(Point::new(0.5, 2.5), &[Point::new(3.5, 0.5)]);
-        assert!((round[0] - (3.0 + 2.0 * 0.0 + 2.0 * 1.0)).abs() < 1.5, "{round:?}");
+        assert_eq!(round, [4.4], "three along sides and one over a corner");
         assert_eq!(ways.lengths_m(from, &[Point::new(90.5, 0.5)]), [f64::INFINITY]);
+        // From the robot they are known without a search.
+        for point in to {
+            assert_eq!(ways.lengths_m(from, &[point]), [ways.set_out(point).0]);
+        }
+        assert_eq!(ways.set_out(Point::new(90.5, 0.5)), (f64::INFINITY, 0.0));
     }
 
     #[test]
     fn a_robot_turns_to_where_its_way_begins_and_not_to_where_it_ends() {
         // The place lies to the left, and the way there begins straight ahead.
         let ways = ways("........\n.######.\n........", Pose::new(0.5, 0.5, 0.0));
-        assert!(ways.turn_rad(Point::new(6.5, 2.5)) < 0.2, "{}", ways.turn_rad(Point::new(6.5, 2.5)));
-        assert!((ways.turn_rad(Point::new(0.5, 2.5)) - std::f64::consts::FRAC_PI_2).abs() < 0.2);
-        assert_eq!(ways.turn_rad(Point::new(0.5, 0.5)), 0.0);
+        let turn = |x: f64, y: f64| ways.set_out(Point::new(x, y)).1;
+        assert!(turn(6.5, 2.5) < 0.2, "{}", turn(6.5, 2.5));
+        assert!((turn(0.5, 2.5) - std::f64::consts::FRAC_PI_2).abs() < 0.2);
+        assert_eq!((turn(0.5, 0.5), ways.set_out(Point::new(0.5, 0.5)).0), (0.0, 0.0));
     }
 }

@@ -10,7 +10,7 @@
 //! goal is good enough; its last stretch to the goal is straight and looked at for the
 //! centre alone, as a goal at a frontier has unknown cells under the outline. When the first
 //! heading finds nothing, the robot turns on the spot and begins 90, 180 and 270
-//! degrees aside. A robot too near to an obstacle first drives straight to the nearest
+//! degrees aside, where its outline is free so. A robot too near to an obstacle first drives straight to the nearest
 //! passable cell, as with the other planners.
 //!
 //! The path's cost is its length in metres. An expansion takes about two microseconds

@@ -30,6 +30,11 @@ impl OpenTour {
 
     /// The order of least cost, by dynamic programming over sets.
     pub fn best_order(&self) -> Vec<usize> {
+        self.exact_order(|_| true)
+    }
+
+    /// The same of the orders that begin with a place of which this holds.
+    fn exact_order(&self, may_begin: impl Fn(usize) -> bool) -> Vec<usize> {
         let count = self.first.len();
         if count == 0 {
             return Vec::new();
@@ -37,7 +42,7 @@ impl OpenTour {
         // least[set * count + last]: cost of the best way through `set` that ends at `last`.
         let mut least = vec![f64::INFINITY; count << count];
         let mut before = vec![usize::MAX; count << count];
-        for (last, &cost) in self.first.iter().enumerate() {
+        for (last, &cost) in self.first.iter().enumerate().filter(|&(node, _)| may_begin(node)) {
             least[(1 << last) * count + last] = cost;
         }
         for set in 1..1_usize << count {
@@ -69,14 +74,7 @@ impl OpenTour {
 
     /// A good order: nearest neighbour, then single moves while they help.
     pub fn good_order(&self) -> Vec<usize> {
-        let mut left: Vec<usize> = (0..self.first.len()).collect();
-        let mut tour: Vec<usize> = Vec::with_capacity(left.len());
-        while !left.is_empty() {
-            let leg = |&node: &usize| self.leg(tour.last().copied(), node);
-            let next = (0..left.len()).min_by(|&a, &b| leg(&left[a]).total_cmp(&leg(&left[b]))).unwrap_or_default();
-            let node = left.remove(next);
-            tour.push(node);
-        }
+        let mut tour = self.nearest_neighbours(None);
         while self.improve(&mut tour) {}
         tour
     }
@@ -109,29 +107,31 @@ impl OpenTour {
     }
 
     /// The best tour that begins with a place, and what it costs: the exact one of few places,
-    /// and of many the nearest neighbour's, bettered by turning parts round (2-opt) and moving
+    /// and of many the nearest neighbours', bettered by turning parts round (2-opt) and moving
     /// parts (Or-opt) until nothing helps.
     pub fn best_from(&self, begin: usize) -> (Vec<usize>, f64) {
-        let count = self.first.len();
-        let tour = if count <= EXACT_UP_TO {
-            let mut first = vec![f64::INFINITY; count];
-            first[begin] = self.first[begin];
-            Self { first, between: self.between.clone() }.best_order()
+        let is_small = self.first.len() <= EXACT_UP_TO;
+        self.with_cost(if is_small {
+            self.exact_order(|node| node == begin)
         } else {
-            self.bettered(self.nearest_neighbours(begin))
-        };
+            self.bettered(self.nearest_neighbours(Some(begin)))
+        })
+    }
+
+    fn with_cost(&self, tour: Vec<usize>) -> (Vec<usize>, f64) {
         let cost = self.cost(&tour);
         (tour, cost)
     }
 
-    fn nearest_neighbours(&self, begin: usize) -> Vec<usize> {
-        let mut left: Vec<usize> = (0..self.first.len()).filter(|&node| node != begin).collect();
-        let mut tour = vec![begin];
-        while let Some(next) = {
-            let last = tour.last().copied();
-            (0..left.len()).min_by(|&a, &b| self.leg(last, left[a]).total_cmp(&self.leg(last, left[b])))
-        } {
-            tour.push(left.remove(next));
+    /// Always on to the nearest place that is left, from the robot or from a given place on.
+    fn nearest_neighbours(&self, begin: Option<usize>) -> Vec<usize> {
+        let mut left: Vec<usize> = (0..self.first.len()).filter(|&node| Some(node) != begin).collect();
+        let mut tour: Vec<usize> = begin.into_iter().collect();
+        while !left.is_empty() {
+            let leg = |&node: &usize| self.leg(tour.last().copied(), node);
+            let next = (0..left.len()).min_by(|&a, &b| leg(&left[a]).total_cmp(&leg(&left[b]))).unwrap_or_default();
+            let node = left.remove(next);
+            tour.push(node);
         }
         tour
     }
@@ -165,10 +165,7 @@ impl OpenTour {
                 })
             })
         });
-        turned.chain(moved).map(|tour| {
-            let cost = self.cost(&tour);
-            (tour, cost)
-        })
+        turned.chain(moved).map(|tour| self.with_cost(tour))
     }
 }
 
@@ -221,7 +218,7 @@ mod tests {
                 let least = others.map(|p| legs.cost(&p)).fold(f64::INFINITY, f64::min);
                 prop_assert_eq!(tour[0], begin);
                 prop_assert!((cost - least).abs() < 1e-9 && (legs.cost(&tour) - cost).abs() < 1e-9);
-                let mut good = legs.bettered(legs.nearest_neighbours(begin));
+                let mut good = legs.bettered(legs.nearest_neighbours(Some(begin)));
                 prop_assert!(good[0] == begin && legs.cost(&good) <= 1.3 * least + 1e-9);
                 good.sort_unstable();
                 prop_assert_eq!(&good, &nodes);

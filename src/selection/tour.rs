@@ -110,11 +110,9 @@ impl GoalSelector for Tour {
         by_way.sort_by(|&a, &b| way_m(&candidates[a]).total_cmp(&way_m(&candidates[b])).then(a.cmp(&b)));
         let (kept, others) = by_way.split_at(by_way.len().min(self.0.most));
         let places: Vec<Point> = kept.iter().map(|&index| candidates[index].goal.position()).collect();
-        let turns: Vec<f64> = places.iter().map(|&place| context.ways.turn_rad(place)).collect();
-        let turning_m: Vec<f64> =
-            turns.iter().map(|turn| (turn - self.0.free_turn_rad).max(0.0) * self.0.turn_m_per_rad).collect();
-        let ways_m = context.ways.lengths_m(context.robot_in_map.position(), &places);
-        let first = ways_m.into_iter().map(known).zip(&turning_m).map(|(way_m, turning_m)| way_m + turning_m);
+        let (ways_m, turns): (Vec<f64>, Vec<f64>) = places.iter().map(|&place| context.ways.set_out(place)).unzip();
+        let turning_m = |turn: &f64| (turn - self.0.free_turn_rad).max(0.0) * self.0.turn_m_per_rad;
+        let first = ways_m.into_iter().map(known).zip(&turns).map(|(way_m, turn)| way_m + turning_m(turn));
         let between = places.iter().flat_map(|&from| context.ways.lengths_m(from, &places));
         let tours = OpenTour { first: first.collect(), between: between.map(known).collect() };
         let order = self.order(&tours, kept, candidates, context.under_way);
@@ -148,16 +146,16 @@ impl Tour {
         candidates: &[Candidate],
         under_way: Option<Point>,
     ) -> Vec<usize> {
-        let best = (0..kept.len()).map(|begin| tours.best_from(begin)).min_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((best, least_m)) = best else { return Vec::new() };
+        let best_from: Vec<(Vec<usize>, f64)> = (0..kept.len()).map(|begin| tours.best_from(begin)).collect();
+        let Some((best, least_m)) = best_from.iter().min_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
         let away_m = |node: usize| {
             under_way.map_or(f64::INFINITY, |target| nalgebra::distance(&candidates[kept[node]].target, &target))
         };
         let stays = (0..kept.len()).filter(|&node| away_m(node) <= self.0.same_m);
-        let stays = stays.min_by(|&a, &b| away_m(a).total_cmp(&away_m(b))).map(|begin| tours.best_from(begin));
+        let stays = stays.min_by(|&a, &b| away_m(a).total_cmp(&away_m(b))).map(|begin| &best_from[begin]);
         match stays {
-            Some((tour, cost_m)) if cost_m <= least_m + self.0.stay_m => tour,
-            _ => best,
+            Some((tour, cost_m)) if *cost_m <= least_m + self.0.stay_m => tour.clone(),
+            _ => best.clone(),
         }
     }
 }

@@ -4,45 +4,38 @@ use crate::geometry::{Point, Pose};
 use crate::planning::{CoarseWays, PathField};
 use crate::selection::{StraightWays, Ways};
 
-/// Searched when they are asked for the first time; straight lines where no field is given.
-pub enum MapWays<'a> {
-    /// Nobody has asked yet.
-    Unasked(&'a PathField, Pose),
-    /// Round what is in the way.
-    Coarse(Box<CoarseWays>),
-    /// Where the robot stands where it cannot, or nobody needs more.
-    Straight(StraightWays),
+/// Ways round what is in the way, searched when they are asked for the first time; straight
+/// lines where no field is given.
+pub struct MapWays<'a> {
+    field: Option<&'a PathField>,
+    robot_in_map: Pose,
+    coarse: Option<CoarseWays>,
 }
 
 impl<'a> MapWays<'a> {
     /// Ways in a field, if there is one.
-    pub fn of(field: Option<&'a PathField>, robot_in_map: Pose) -> Self {
-        field.map_or(Self::Straight(StraightWays { robot_in_map }), |field| Self::Unasked(field, robot_in_map))
+    pub const fn of(field: Option<&'a PathField>, robot_in_map: Pose) -> Self {
+        Self { field, robot_in_map, coarse: None }
     }
 
     fn coarse(&mut self) -> Option<&mut CoarseWays> {
-        if let Self::Unasked(field, robot) = self {
-            *self = Self::Coarse(Box::new(CoarseWays::new(field, *robot)));
-        }
-        match self {
-            Self::Coarse(ways) => Some(ways),
-            Self::Unasked(..) | Self::Straight(_) => None,
-        }
+        let field = self.field?;
+        Some(self.coarse.get_or_insert_with(|| CoarseWays::new(field, self.robot_in_map)))
+    }
+
+    const fn straight(&self) -> StraightWays {
+        StraightWays { robot_in_map: self.robot_in_map }
     }
 }
 
 impl Ways for MapWays<'_> {
-    fn lengths_m(&mut self, from: Point, to: &[Point]) -> Vec<f64> {
-        if let Self::Straight(ways) = self {
-            return ways.lengths_m(from, to);
-        }
-        self.coarse().map_or_else(Vec::new, |ways| ways.lengths_m(from, to))
+    fn set_out(&mut self, to: Point) -> (f64, f64) {
+        let coarse = self.coarse().map(|ways| ways.set_out(to));
+        coarse.unwrap_or_else(|| self.straight().set_out(to))
     }
 
-    fn turn_rad(&mut self, to: Point) -> f64 {
-        if let Self::Straight(ways) = self {
-            return ways.turn_rad(to);
-        }
-        self.coarse().map_or(0.0, |ways| ways.turn_rad(to))
+    fn lengths_m(&mut self, from: Point, to: &[Point]) -> Vec<f64> {
+        let coarse = self.coarse().map(|ways| ways.lengths_m(from, to));
+        coarse.unwrap_or_else(|| self.straight().lengths_m(from, to))
     }
 }

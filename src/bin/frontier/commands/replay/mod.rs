@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         found.forget_map();
     }
     let verdict = Verdict::of(&summary, &found);
-    tell(args, &summary, &found)?;
+    tell(args, &summary, &found, &verdict)?;
     if let Err(missing) = &verdict.replay {
         bail!("{}: frontier replay: no, {missing}", args.bag.display());
     }
@@ -125,12 +125,12 @@ fn missing(robot: &BagRobot) -> Vec<String> {
 }
 
 /// What was guessed, and what is wrong with the bag.
-fn tell(args: &Args, summary: &Summary, found: &Inputs) -> anyhow::Result<()> {
+fn tell(args: &Args, summary: &Summary, found: &Inputs, verdict: &Verdict) -> anyhow::Result<()> {
     if args.quiet {
         return Ok(());
     }
     bags::warn(summary, found)?;
-    Verdict::of(summary, found).sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
+    verdict.sentences().iter().try_for_each(|sentence| output::line(format_args!("{sentence}")))
 }
 
 fn report(
