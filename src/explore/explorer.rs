@@ -20,7 +20,7 @@ use super::map_watch::MapWatch;
 use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontiers};
 use super::settings::{ExplorerSettings, SettingsError};
 use super::sight::Sights;
-use super::state::{AfterTurn, Decision, State, has_ended};
+use super::state::{AfterTurn, Decision, State, has_ended, has_succeeded};
 use super::traits::RobotTraits;
 use super::trouble::Trouble;
 use crate::geometry::{Polygon, Pose};
@@ -209,14 +209,18 @@ impl Explorer {
         let now_s = observation.stamp_s;
         for _ in 0..3 {
             match &self.state {
-                State::Begin if self.settings.turns.at_start => self.look_round(now_s),
+                State::Begin if self.settings.turns.at_start => self.look_round(now_s, AfterTurn::Settle),
                 State::Begin => self.state = State::Ready,
                 State::Turning { id, since_s, then, .. } => {
-                    if !(has_ended(observation, *id) || now_s - since_s > TURN_TIMEOUT_S) {
+                    let (id, then) = (*id, *then);
+                    if !(has_ended(observation, id) || now_s - since_s > TURN_TIMEOUT_S) {
                         return None;
                     }
-                    self.state = match *then {
-                        AfterTurn::Settle => State::Settling { since_s: now_s },
+                    if let AfterTurn::LookedAt(target) = then {
+                        self.look_is_over(target, pose, has_succeeded(observation, id));
+                    }
+                    self.state = match then {
+                        AfterTurn::Settle | AfterTurn::LookedAt(_) => State::Settling { since_s: now_s },
                         // Maps that came on the way have been decided on below.
                         AfterTurn::Confirm(turns) => State::Confirming { since_s: now_s, turns, version: 0 },
                     };
@@ -276,9 +280,9 @@ impl Explorer {
         map
     }
 
-    fn look_round(&mut self, now_s: f64) {
+    fn look_round(&mut self, now_s: f64, then: AfterTurn) {
         self.counts.turns += 1;
-        self.turn(now_s, TAU, AfterTurn::Settle);
+        self.turn(now_s, TAU, then);
     }
 
     fn turn(&mut self, now_s: f64, angle_rad: f64, then: AfterTurn) {

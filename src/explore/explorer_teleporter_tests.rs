@@ -30,6 +30,8 @@ pub struct Teleporter {
     pub navigation: Navigation,
     pub aborts: bool,
     pub moves: bool,
+    /// It is not let turn on the spot.
+    pub cannot_turn: bool,
     /// It comes to rest a little before its goals, and nobody calls that arrived.
     pub stops_short: bool,
     /// Each map comes with a correction of its pose.
@@ -58,6 +60,7 @@ impl Teleporter {
             navigation,
             aborts: false,
             moves: true,
+            cannot_turn: false,
             stops_short: false,
             is_corrected: false,
             home: pose,
@@ -89,6 +92,7 @@ impl Teleporter {
     pub fn obey(&mut self, command: &Command) {
         let (id, state) = match command {
             Command::Hold => (0, NavigationState::Idle),
+            Command::Turn { id, .. } if self.cannot_turn => (*id, NavigationState::Aborted("no room".to_owned())),
             Command::Turn { id, .. } | Command::BackOff { id } => (*id, NavigationState::Succeeded),
             Command::Drive { id, goal_in_map } if self.aborts => {
                 if self.moves {

@@ -7,7 +7,7 @@ use crate::geometry::Point;
 use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
 use crate::planning::{HybridAstarConfig, PlannerConfig};
 use crate::robot::{Command, PoseError};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 #[path = "explorer_teleporter_tests.rs"]
 mod teleporter;
@@ -101,6 +101,29 @@ fn a_frontier_that_stays_is_visited_twice_and_then_left() {
     assert_eq!(end.reason, EndReason::Complete);
     assert_eq!((end.left_behind.exhausted, end.left_behind.frontiers), (1, 1));
     assert!(explorer.counts().turns <= 4);
+}
+
+#[test]
+fn a_look_round_that_is_not_made_shows_nothing() {
+    // The frontier lies behind the robot, which stands where it would be seen from.
+    let end_of = |cannot_turn| {
+        let mut robot = Teleporter::new("#####\n#...?\n#...#\n#####", 3.5, 1.5);
+        // Nor can it drive anywhere else.
+        (robot.pose.yaw, robot.cannot_turn, robot.aborts, robot.moves) = (PI, cannot_turn, true, false);
+        let turns = TurnSettings { at_start: false, at_goal: false, recoveries: 1 };
+        let sight = Sight { range_m: 3.0, field_of_view_rad: 1.0, heading_rad: 0.0 };
+        let settings = ExplorerSettings { turns, ..ExplorerSettings::default() };
+        let mut explorer = Explorer::new(settings, &RobotTraits { sight, ..point_robot() }).unwrap();
+        let mut steps = 0..2000;
+        let end = steps.find_map(|_| {
+            let decision = explorer.step(&robot.observation());
+            robot.obey(&decision.command);
+            decision.end
+        });
+        end.map(|end| (end.reason, end.left_behind.frontiers))
+    };
+    assert_eq!(end_of(true), Some((EndReason::Stuck, 1)));
+    assert_eq!(end_of(false), Some((EndReason::Complete, 1)));
 }
 
 #[test]

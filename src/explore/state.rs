@@ -120,10 +120,13 @@ pub enum State {
 }
 
 /// How the explorer goes on after a turn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AfterTurn {
     /// It looked about: a map that shows it is waited for.
     Settle,
+    /// The same, and it was all that was left to do for a target. Where the turn was made, it was
+    /// looked at; where not, seeing it has failed.
+    LookedAt(Point),
     /// It moved to bring a map, for the so manieth time.
     Confirm(u32),
 }
@@ -173,6 +176,11 @@ impl State {
         };
         Decision { command, phase, record, frontiers: Arc::default(), path: None, notice: None, end }
     }
+}
+
+/// Whether the command with this id was carried out.
+pub fn has_succeeded(observation: &Observation, id: CommandId) -> bool {
+    observation.navigation.command == id && observation.navigation.state == NavigationState::Succeeded
 }
 
 /// Whether the command with this id is over, one way or another.

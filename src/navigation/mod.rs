@@ -108,7 +108,7 @@ impl Navigator {
             Activity::Idle => return (Twist::ZERO, Navigation { command: 0, state: NavigationState::Idle }),
             Activity::Ended(navigation) => return (Twist::ZERO, navigation.clone()),
             Activity::Turn { id, turn } => {
-                let (twist, done) = turn.update(&input.pose_in_map, &input.twist);
+                let (twist, done) = turn.update(&input.pose_in_map);
                 let state = if done { NavigationState::Succeeded } else { NavigationState::Active };
                 (twist, Navigation { command: *id, state })
             }

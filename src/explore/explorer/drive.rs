@@ -1,7 +1,7 @@
 //! On the way to a goal: arrival, failure, and second thoughts.
 
 use super::super::record::DecisionRecord;
-use super::super::state::State;
+use super::super::state::{AfterTurn, State};
 use super::Explorer;
 use super::follow::Arrival;
 use crate::geometry::Pose;
@@ -33,7 +33,7 @@ impl Explorer {
                 if !is_stage {
                     self.arrivals.push(Arrival { target, place, decided_at: None, is_beside });
                     if self.settings.turns.at_goal {
-                        self.look_round(now_s);
+                        self.look_round(now_s, AfterTurn::Settle);
                     }
                 }
             }

@@ -115,6 +115,16 @@ impl Explorer {
         }
     }
 
+    /// A look round at a target is over. One that was not made is no visit: it says nothing about
+    /// what could be seen.
+    pub(super) fn look_is_over(&mut self, target: Point, pose: Pose, is_made: bool) {
+        if is_made {
+            self.blacklist.record_visit(target, pose.position());
+        } else {
+            self.blacklist.record_failure(target, pose.position(), pose.position());
+        }
+    }
+
     /// Turns what was decided into the next state.
     fn follow(&mut self, decided: &Decided, map: &MapSnapshot, now_s: f64, record: &mut DecisionRecord, pose: Pose) {
         if let Some(share) = self.share_known(map)
@@ -200,9 +210,8 @@ impl Explorer {
         }
         if let Some(target) = decided.here {
             // Nothing else is left: look round once more from where the robot stands.
-            self.blacklist.record_visit(target, pose.position());
             "the robot already stands where the last frontier is seen from: look round".clone_into(&mut record.why);
-            self.look_round(now_s);
+            self.look_round(now_s, AfterTurn::LookedAt(target));
             return;
         }
         let audit = decided.audit.as_ref();
