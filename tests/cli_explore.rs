@@ -46,7 +46,7 @@ fn run_json(out: &Path) -> Value {
 fn a_world_goes_in_and_its_map_comes_out() {
     let folder = tempfile::tempdir().unwrap();
     let (world, out) = (rooms(folder.path()), folder.path().join("out"));
-    explore(&world, &out, &["--lidar-noise", "0"]).success().stdout("");
+    explore(&world, &out, &["--config", "wfd", "--lidar-noise", "0"]).success().stdout("");
     let run = run_json(&out);
     assert_eq!(run["end_reason"], "complete");
     assert_eq!(run["collisions"], 0);

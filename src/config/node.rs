@@ -46,7 +46,7 @@ pub enum TurnBy {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct NodeParams {
-    /// The preset: a built-in name, or a YAML file. `liang` when absent, and
+    /// The preset: a built-in name, or a YAML file. `tour` when absent, and
     /// `explore_lite` when one of explore_lite's weights is set.
     pub config: Option<String>,
     /// The robot: a built-in name, or a YAML file.
@@ -194,7 +194,7 @@ impl NodeParams {
     #[must_use]
     pub fn base_preset(&self) -> &str {
         let weighed = [self.potential_scale, self.orientation_scale, self.gain_scale, self.min_frontier_size];
-        let default = if weighed.iter().any(Option::is_some) { "explore_lite" } else { "liang" };
+        let default = if weighed.iter().any(Option::is_some) { "explore_lite" } else { Preset::DEFAULT };
         self.config.as_deref().unwrap_or(default)
     }
 

@@ -10,7 +10,7 @@ fn preset(tree: Value) -> Result<Preset, NodeParamsError> {
 
 #[test]
 fn without_parameters_it_is_the_built_in_preset() {
-    assert_eq!(preset(json!({})).unwrap(), Preset::built_in("liang").unwrap());
+    assert_eq!(preset(json!({})).unwrap(), Preset::built_in(Preset::DEFAULT).unwrap());
     let alghfeli = preset(json!({"config": "alghfeli", "tick_rate": 10})).unwrap();
     assert_eq!(alghfeli, Preset::built_in("alghfeli").unwrap());
 }

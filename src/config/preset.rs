@@ -88,6 +88,9 @@ const BUILT_IN: &[(&str, &str)] = &[
 ];
 
 impl Preset {
+    /// The preset where none is named.
+    pub const DEFAULT: &'static str = "tour";
+
     /// The names of the built-in presets.
     pub fn names() -> impl Iterator<Item = &'static str> {
         BUILT_IN.iter().map(|(name, _)| *name)

@@ -164,7 +164,8 @@ impl Assessor<'_> {
 
     fn place(&self, target: Point, standing: &mut StandingSearch, refused: &dyn Fn(Point) -> bool) -> Option<Pose> {
         let goal = &self.settings.goal;
-        let search = StandingGoal { radius_m: goal.search_radius_m, heading: goal.heading, refused };
+        let heading = goal.heading.of_view(self.sights.is_all_round());
+        let search = StandingGoal { radius_m: goal.search_radius_m, heading, refused };
         standing.goal(self.field?, &self.robot, target, &search)
     }
 

@@ -4,6 +4,7 @@ use super::assess::Assessed;
 use super::blacklist::Taboo;
 use super::record::{CandidateRecord, CandidateStatus, DecisionRecord, EndReason, LeftBehind, SeenFrontiers};
 use crate::geometry::{Point, Pose};
+use crate::selection::TOUR_M;
 
 /// Where to go, when there is somewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,6 +142,21 @@ pub fn count(assessed: &[Assessed]) -> LeftBehind {
     left
 }
 
+/// How the chosen one compares with the next best beginning, where the strategy plans tours.
+fn runner_up(assessed: &[Assessed]) -> Option<String> {
+    let tour_m = |a: &Assessed| a.record.scores.get(TOUR_M).copied();
+    let (chosen, others): (Vec<&Assessed>, Vec<&Assessed>) =
+        assessed.iter().partition(|a| a.record.status == CandidateStatus::Chosen);
+    let length_m = tour_m(chosen.first()?)?;
+    let others = others.into_iter().filter_map(|a| Some((tour_m(a)?, a.target)));
+    let Some((other_m, begin)) = others.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return Some(format!(", a way of {length_m:.1} m"));
+    };
+    let (by_m, word) = ((other_m - length_m).abs(), if other_m < length_m { "more" } else { "less" });
+    let begin = format!("to begin at ({:.2}, {:.2}) m", begin.x, begin.y);
+    Some(format!(", a tour of {length_m:.1} m, {by_m:.1} m {word} than {begin}"))
+}
+
 /// One sentence about the decision.
 pub fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, left: &LeftBehind) -> String {
     let skipped = assessed.iter().filter(|a| a.record.status == CandidateStatus::NoPath).count();
@@ -152,8 +168,9 @@ pub fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, l
         Some(choice) => {
             let passed_over = if skipped > 0 { format!(", {skipped} before it had no path") } else { String::new() };
             let part = if choice.is_stage { ": the planner gave up, part of the way" } else { "" };
+            let tours = runner_up(assessed).unwrap_or_default();
             format!(
-                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{passed_over}{part}",
+                "{strategy}: best of {} frontiers, at ({:.2}, {:.2}) m{tours}{passed_over}{part}",
                 left.frontiers, choice.target.x, choice.target.y
             )
         }
@@ -161,5 +178,39 @@ pub fn explain(assessed: &[Assessed], choice: Option<&Choice>, strategy: &str, l
             "no goal among {} frontiers: {} unreachable, {} failed, {} seen in vain, {} too narrow, {} outside the region",
             left.frontiers, left.unreachable, left.failed, left.exhausted, left.too_narrow, left.outside_region
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assessed(status: CandidateStatus, x: f64, tour_m: Option<f64>) -> Assessed {
+        let target = Point::new(x, 0.0);
+        let record = CandidateRecord {
+            id: x as u64,
+            target: target.into(),
+            goal: None,
+            size_cells: 1,
+            size_m: 1.0,
+            distance_m: x,
+            path_m: None,
+            scores: tour_m.map(|tour_m| (TOUR_M, tour_m)).into_iter().collect(),
+            status,
+        };
+        Assessed { record, target, candidate: None, taboo: None, spent_m: None, total: 0.0 }
+    }
+
+    #[test]
+    fn a_tour_is_told_beside_its_runner_up() {
+        let (chosen, other) = (CandidateStatus::Chosen, CandidateStatus::Eligible);
+        let told = |all: &[Assessed]| runner_up(all).unwrap_or_default();
+        let mut all = vec![assessed(chosen, 1.0, Some(20.0)), assessed(other, 2.0, Some(26.0))];
+        assert_eq!(told(&all), ", a tour of 20.0 m, 6.0 m less than to begin at (2.00, 0.00) m");
+        // The one under way stays though another tour is a little shorter.
+        all.push(assessed(other, 3.0, Some(18.5)));
+        assert_eq!(told(&all), ", a tour of 20.0 m, 1.5 m more than to begin at (3.00, 0.00) m");
+        assert_eq!(told(&all[..1]), ", a way of 20.0 m");
+        assert_eq!(told(&[assessed(chosen, 1.0, None), assessed(other, 2.0, None)]), "");
     }
 }

@@ -15,6 +15,20 @@ pub enum GoalHeading {
     TowardFrontier,
     /// As it comes from where it is now: no turn on arrival.
     AsApproached,
+    /// As it comes where its lidar sees all round, and towards the frontier where it does not.
+    AsNeeded,
+}
+
+impl GoalHeading {
+    /// The heading of a robot that sees all round, or does not.
+    #[must_use]
+    pub const fn of_view(self, sees_all_round: bool) -> Self {
+        match self {
+            Self::AsNeeded if sees_all_round => Self::AsApproached,
+            Self::AsNeeded => Self::TowardFrontier,
+            Self::TowardFrontier | Self::AsApproached => self,
+        }
+    }
 }
 
 /// What kind of place is looked for.
@@ -108,7 +122,7 @@ impl StandingSearch {
         let info = field.costmap().info();
         let place = info.goal_point(self.best_place(field, info.cell_at(target), search)?);
         let yaw = match search.heading {
-            GoalHeading::TowardFrontier => Pose::facing(place, target).yaw,
+            GoalHeading::TowardFrontier | GoalHeading::AsNeeded => Pose::facing(place, target).yaw,
             GoalHeading::AsApproached => Pose::facing(robot.position(), place).yaw,
         };
         Some(Pose::new(place.x, place.y, yaw))

@@ -18,7 +18,7 @@ pub use max_gain::MaxGain;
 pub use mrtsp::Mrtsp;
 pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
 pub use radius_distance::RadiusDistance;
-pub use tour::{Tour, TourConfig};
+pub use tour::{PLACE, TOUR_M, Tour, TourConfig};
 pub use ways::{StraightWays, Ways};
 
 use crate::geometry::{Point, Pose};

@@ -64,6 +64,12 @@ impl TourConfig {
 /// More frontiers than this would take too long to order.
 const MOST: f64 = 64.0;
 
+/// The part of a score that says the place in the order, from 0.
+pub const PLACE: &str = "place";
+/// The part of a score that says how long the best tour is that begins there, metres: of those
+/// that take part in the tour alone.
+pub const TOUR_M: &str = "tour_m";
+
 /// The strategy.
 ///
 /// What lies on the way to the far end is seen first, though the far end alone is nearer:
@@ -115,16 +121,17 @@ impl GoalSelector for Tour {
         let first = ways_m.into_iter().map(known).zip(&turns).map(|(way_m, turn)| way_m + turning_m(turn));
         let between = places.iter().flat_map(|&from| context.ways.lengths_m(from, &places));
         let tours = OpenTour { first: first.collect(), between: between.map(known).collect() };
-        let order = self.order(&tours, kept, candidates, context.under_way);
+        let best_from: Vec<(Vec<usize>, f64)> = (0..kept.len()).map(|begin| tours.best_from(begin)).collect();
+        let order = self.order(&best_from, kept, candidates, context.under_way);
         let mut scores = vec![Score::default(); candidates.len()];
         let in_order = order.iter().map(|&node| (kept[node], Some(node))).chain(others.iter().map(|&i| (i, None)));
         let mut before = None;
         for (place, (index, node)) in in_order.enumerate() {
             let leg_m = node.map_or_else(|| way_m(&candidates[index]), |node| tours.leg(before, node));
-            let turn_rad = node.map_or(0.0, |node| turns[node]);
             before = node;
-            let parts = [("place", place as f64), ("leg_m", leg_m), ("turn_rad", turn_rad)];
-            scores[index] = Score { total: place as f64, parts: parts.into() };
+            let of_node = |node: usize| [("turn_rad", turns[node]), (TOUR_M, best_from[node].1)];
+            let parts = [(PLACE, place as f64), ("leg_m", leg_m)].into_iter().chain(node.into_iter().flat_map(of_node));
+            scores[index] = Score { total: place as f64, parts: parts.collect() };
         }
         scores
     }
@@ -139,14 +146,15 @@ const fn known(length_m: f64) -> f64 {
 }
 
 impl Tour {
+    /// The best of the tours that begin at each place, or the best of those that go on to where
+    /// the robot is on its way to.
     fn order(
         &self,
-        tours: &OpenTour,
+        best_from: &[(Vec<usize>, f64)],
         kept: &[usize],
         candidates: &[Candidate],
         under_way: Option<Point>,
     ) -> Vec<usize> {
-        let best_from: Vec<(Vec<usize>, f64)> = (0..kept.len()).map(|begin| tours.best_from(begin)).collect();
         let Some((best, least_m)) = best_from.iter().min_by(|a, b| a.1.total_cmp(&b.1)) else { return Vec::new() };
         let away_m = |node: usize| {
             under_way.map_or(f64::INFINITY, |target| nalgebra::distance(&candidates[kept[node]].target, &target))

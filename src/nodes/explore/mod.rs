@@ -41,7 +41,7 @@ fn help() -> String {
     format!(
         "explore_node: frontier exploration of a robot with a map, transforms and move_base\n\n\
          Usage: explore_node [_PARAMETER:=VALUE]... [TOPIC:=OTHER]... [__name:=NAME] [__ns:=NAMESPACE]\n\n\
-         \x20 _config:=liang               a preset or a YAML file: {presets}\n\
+         \x20 _config:=tour                a preset or a YAML file: {presets}\n\
          \x20 _robot:=turtlebot2           a robot or a YAML file: {robots}\n\
          \x20 _base_frame:=base_link       the robot's frame\n\
          \x20 _move_base:=move_base        the action server\n\

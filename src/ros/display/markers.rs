@@ -7,6 +7,8 @@ use super::super::msg::geometry_msgs::{Point as PointMessage, Pose as PoseMessag
 use super::super::msg::std_msgs::ColorRGBA;
 use super::super::msg::visualization_msgs::{Marker, MarkerArray};
 use crate::explore::{CandidateRecord, CandidateStatus, DecisionRecord, SeenFrontiers};
+use crate::geometry::Pose;
+use crate::selection::PLACE;
 use std::collections::BTreeSet;
 
 /// The cells of a frontier.
@@ -15,6 +17,8 @@ const CELLS: &str = "frontiers";
 const TARGETS: &str = "targets";
 /// Its place in the order.
 const ORDER: &str = "order";
+/// The tour past the frontiers, where the strategy plans one.
+const TOUR: &str = "tour";
 /// So many places are written out.
 const NUMBERED: usize = 20;
 
@@ -51,6 +55,7 @@ impl FrontierMarkers {
                 }
             }
         }
+        markers.extend(tour(record));
         let now: BTreeSet<(&'static str, i32)> = markers.iter().map(|(ns, marker)| (*ns, marker.id)).collect();
         let gone = self
             .shown
@@ -115,6 +120,21 @@ fn number(candidate: &CandidateRecord, rank: usize) -> (&'static str, Marker) {
     (ORDER, Marker { pose, scale, text, ..marker(Marker::TEXT_VIEW_FACING, candidate.id, black) })
 }
 
+/// A line from the robot past the places of a tour in their order, if there is one.
+fn tour(record: &DecisionRecord) -> Option<(&'static str, Marker)> {
+    let place = |c: &CandidateRecord| Some((*c.scores.get(PLACE)?, c.goal?));
+    let mut places: Vec<(f64, Pose)> = record.candidates.iter().filter_map(place).collect();
+    places.sort_by(|a, b| a.0.total_cmp(&b.0));
+    if places.is_empty() {
+        return None;
+    }
+    let poses = [record.pose].into_iter().chain(places.into_iter().take(NUMBERED).map(|(_, goal)| goal));
+    let points = poses.map(|pose| point_message(pose.x, pose.y)).collect();
+    let orange = ColorRGBA { r: 1.0, g: 0.55, b: 0.0, a: 0.8 };
+    let scale = Vector3 { x: 0.05, ..Vector3::default() };
+    Some((TOUR, Marker { scale, points, ..marker(Marker::LINE_STRIP, 0, orange) }))
+}
+
 const fn at(x: f64, y: f64, z: f64) -> PoseMessage {
     PoseMessage { position: PointMessage { x, y, z }, orientation: Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 } }
 }
@@ -124,7 +144,6 @@ mod tests {
     use super::*;
     use crate::explore::Position;
     use crate::frontier::{CellSide, Frontier};
-    use crate::geometry::Pose;
     use crate::grid::{Cell, GridInfo};
 
     fn candidate(id: u64, status: CandidateStatus) -> CandidateRecord {
@@ -171,5 +190,22 @@ mod tests {
         let third = show(&mut markers, Vec::new());
         assert!(third.len() == 3 && third.iter().all(|m| m.2 == i32::from(Marker::DELETE)));
         assert!(show(&mut markers, Vec::new()).is_empty());
+    }
+
+    #[test]
+    fn a_tour_is_a_line_from_the_robot_in_its_order() {
+        let on_tour = |id: u64, place: f64| {
+            let goal = Some(Pose::new(id as f64, 1.0, 0.0));
+            let scores = std::collections::BTreeMap::from([(PLACE, place)]);
+            CandidateRecord { goal, scores, ..candidate(id, CandidateStatus::Eligible) }
+        };
+        let candidates = vec![on_tour(5, 1.0), on_tour(8, 0.0), candidate(3, CandidateStatus::Taboo)];
+        let pose = Pose::new(2.0, 2.0, 0.0);
+        let mut record = DecisionRecord { time_s: 1.0, pose, candidates, goal: None, why: String::new() };
+        let (_, line) = tour(&record).unwrap();
+        let at: Vec<(f64, f64)> = line.points.iter().map(|p| (p.x, p.y)).collect();
+        assert_eq!(at, [(2.0, 2.0), (8.0, 1.0), (5.0, 1.0)]);
+        record.candidates.truncate(0);
+        assert!(tour(&record).is_none());
     }
 }

@@ -4,6 +4,7 @@
 use crate::exit::Outcome;
 use crate::{inputs, output, values};
 use anyhow::{Context, anyhow, bail};
+use frontier_explorer::config::Preset;
 use frontier_explorer::io::{load_preset, load_robot, load_world};
 use frontier_explorer::nodes::{explore_with, simulate_with};
 use frontier_explorer::ros::{Node, start_embedded_master, stop};
@@ -25,7 +26,7 @@ pub struct Args {
     #[arg(default_value = "office")]
     world: String,
     /// How to explore: a YAML file, or the name of a built-in preset.
-    #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
+    #[arg(long, value_name = "PRESET", default_value = Preset::DEFAULT, long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]

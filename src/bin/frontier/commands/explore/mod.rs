@@ -24,7 +24,7 @@ pub struct Args {
     #[arg(default_value = "office")]
     world: String,
     /// How to explore: a YAML file, or the name of a built-in preset.
-    #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
+    #[arg(long, value_name = "PRESET", default_value = Preset::DEFAULT, long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2", long_help = inputs::robot_help())]

@@ -6,6 +6,7 @@ use crate::exit::Outcome;
 use crate::{bags, inputs, output, stop, values};
 use anyhow::bail;
 use frontier_explorer::bag::Summary;
+use frontier_explorer::config::Preset;
 use frontier_explorer::explore::{EndReason, Explorer, run as explore};
 use frontier_explorer::io::{load_preset, load_robot};
 use frontier_explorer::mapping::BuilderConfig;
@@ -22,7 +23,7 @@ pub struct Args {
     /// The bag.
     bag: PathBuf,
     /// How to explore: a YAML file, or the name of a built-in preset.
-    #[arg(long, value_name = "PRESET", default_value = "wfd", long_help = inputs::preset_help())]
+    #[arg(long, value_name = "PRESET", default_value = Preset::DEFAULT, long_help = inputs::preset_help())]
     config: String,
     /// The robot: a YAML file, or the name of a built-in robot.
     #[arg(long, value_name = "ROBOT", default_value = "turtlebot2")]
