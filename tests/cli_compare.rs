@@ -104,6 +104,48 @@ fn all_combinations_are_made_and_parts_merge_to_the_whole() {
 }
 
 #[test]
+fn the_oracle_stands_beside_the_presets_and_measures_them() {
+    let folder = folder();
+    let path = folder.path();
+    let small = ["compare", "--presets=plain.yaml", "--worlds=rooms.yaml", "--starts=starts.csv", "--oracle"];
+    let output =
+        frontier(path).args(small).args(["--json=all.json", "--csv=all.csv", "--html=all.html"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let stdout = String::from_utf8(output.stdout).unwrap();
+    assert!(stdout.contains("T99/oracle's") && stdout.contains(" oracle "), "{stdout}");
+    for part in ["1/2", "2/2"] {
+        let json = format!("--json={}.json", &part[..1]);
+        frontier(path).args(small).args(["--quiet", "--shard", part, json.as_str()]).assert().success();
+    }
+    let merge = ["compare", "--quiet", "--json=merged.json", "--merge", "1.json", "2.json"];
+    frontier(path).args(merge).assert().success();
+    assert_eq!(without_wall(path, "all.json"), without_wall(path, "merged.json"));
+
+    let all: Value = serde_json::from_slice(&std::fs::read(path.join("all.json")).unwrap()).unwrap();
+    assert_eq!(all["plan"]["presets"][1]["is_oracle"], true);
+    let runs = all["runs"].as_array().unwrap();
+    let presets: Vec<&Value> = runs.iter().map(|run| &run["preset"]).collect();
+    assert_eq!(presets, ["plain", "oracle", "plain", "oracle"]);
+    for pair in runs.chunks(2) {
+        let time_s = |run: &Value| run["time_to_coverage_s"]["0.99"].as_f64().unwrap();
+        assert!(pair[1]["end_reason"] == "complete" && time_s(&pair[1]) <= time_s(&pair[0]), "{pair:?}");
+        assert_eq!(pair[1]["sim_time_s"], pair[1]["time_to_coverage_s"]["0.99"]);
+    }
+    let ratio = &all["summaries"][0]["t99_to_oracle"];
+    assert!(ratio["median"].as_f64().unwrap() >= 1.0 && ratio["of"] == 2, "{ratio}");
+    assert!(std::fs::read_to_string(path.join("all.html")).unwrap().contains("oracle's"));
+    assert_eq!(std::fs::read_to_string(path.join("all.csv")).unwrap().matches(",oracle,rooms,").count(), 2);
+
+    // Neither is a part with an oracle one of a comparison without, nor may a preset have its name.
+    compare(path, &["--json=plain.json", "--shard=1/8"]);
+    let other = frontier(path).args(["compare", "--merge", "plain.json", "1.json"]).output().unwrap();
+    assert!(String::from_utf8_lossy(&other.stderr).contains("presets are not those of the first part"));
+    std::fs::write(path.join("oracle.yaml"), "explorer: {}").unwrap();
+    let twice = frontier(path).args(["compare", "--presets=oracle.yaml", "--worlds=rooms.yaml", "--oracle"]).output();
+    assert!(String::from_utf8_lossy(&twice.unwrap().stderr).contains("two presets with the name \"oracle\""));
+}
+
+#[test]
 fn a_part_alone_is_printed_and_known_to_be_incomplete() {
     let folder = folder();
     let path = folder.path();
@@ -236,6 +278,7 @@ fn bad_input_is_answered_in_one_sentence() {
         (&["--merge", "none.json"], 1, "none.json: not the results of a comparison"),
         (&["--merge", "future.json"], 1, "future.json: the results have schema version 9: must be 1"),
         (&["--merge", "none.json", "--seeds=1"], 2, "cannot be used with"),
+        (&["--merge", "none.json", "--oracle"], 2, "cannot be used with"),
     ];
     for (args, code, expected) in cases {
         let output = frontier(path).arg("compare").args(*args).output().unwrap();

@@ -42,6 +42,12 @@ pub struct CoarseWays {
     from_robot: Vec<u32>,
 }
 
+/// What the ways from one place to everywhere cost.
+#[derive(Clone, Debug)]
+pub(crate) struct WaysFrom {
+    cost: Vec<u32>,
+}
+
 impl CoarseWays {
     /// Of a field of ways and the robot in it.
     #[must_use]
@@ -82,6 +88,25 @@ impl CoarseWays {
         to.into_iter().map(|index| self.length_m(index.map_or(UNREACHED, |index| self.cost[index]))).collect()
     }
 
+    /// The ways from a place to everywhere.
+    pub(crate) fn ways_from(&mut self, from: Point) -> WaysFrom {
+        self.search(from, None);
+        WaysFrom { cost: self.cost.clone() }
+    }
+
+    /// A shortest way from a point to the place of such ways, as centres of coarse cells that
+    /// lie beside each other; none where there is no way.
+    pub(crate) fn way_to(&self, place: &WaysFrom, from: Point) -> Vec<Point> {
+        let start = self.open_near(from).filter(|&index| place.cost[index] < UNREACHED);
+        let way = std::iter::successors(start, |&index| self.nearer(&place.cost, index));
+        way.map(|index| self.center(index)).collect()
+    }
+
+    /// How long that way is, metres; infinite where there is none.
+    pub(crate) fn way_m(&self, place: &WaysFrom, from: Point) -> f64 {
+        self.length_m(self.open_near(from).map_or(UNREACHED, |index| place.cost[index]))
+    }
+
     /// How long the way from the robot to a place is, metres, infinite where there is none; and
     /// how far it would have to turn to set out, radians, 0 to pi, 0 where no way is known.
     #[must_use]
@@ -102,18 +127,22 @@ impl CoarseWays {
                 ahead = Some(here);
                 break;
             }
-            let back = beside(self.width, index)
-                .filter(|&(_, next)| self.open[next])
-                .min_by_key(|&(_, next)| self.from_robot[next]);
-            match back {
-                Some((_, next)) if self.from_robot[next] < self.from_robot[index] => index = next,
-                _ => break,
+            match self.nearer(&self.from_robot, index) {
+                Some(next) => index = next,
+                None => break,
             }
         }
         let near_m = self.fine.resolution_m() * self.factor as f64;
         ahead
             .filter(|point| nalgebra::distance(&robot, point) > near_m)
             .map_or(0.0, |point| shortest_angle(self.robot.yaw, Pose::facing(robot, point).yaw).abs())
+    }
+
+    /// The cell beside one from which it costs the least to get on, if that is less.
+    fn nearer(&self, cost: &[u32], index: usize) -> Option<usize> {
+        let open = beside(self.width, index).filter(|&(_, next)| self.open[next]);
+        let (_, next) = open.min_by_key(|&(_, next)| cost[next])?;
+        (cost[next] < cost[index]).then_some(next)
     }
 
     fn length_m(&self, cost: u32) -> f64 {
@@ -185,7 +214,7 @@ impl CoarseWays {
     }
 
     /// Whether all coarse cells on the line between two points are open.
-    fn is_free_line(&self, from: Point, to: Point) -> bool {
+    pub(crate) fn is_free_line(&self, from: Point, to: Point) -> bool {
         let steps = (nalgebra::distance(&from, &to) / (0.5 * EDGE_M)).ceil().max(1.0);
         (0..=steps as usize).all(|step| {
             let point = from + (to - from) * (step as f64 / steps);
@@ -231,6 +260,17 @@ mod tests {
             assert_eq!(ways.lengths_m(from, &[point]), [ways.set_out(point).0]);
         }
         assert_eq!(ways.set_out(Point::new(90.5, 0.5)), (f64::INFINITY, 0.0));
+    }
+
+    #[test]
+    fn a_way_leads_from_cell_to_cell_to_its_place() {
+        let mut ways = ways("....#.\n.##.#.\n....#.", Pose::new(0.5, 0.5, 0.0));
+        let from = ways.ways_from(Point::new(0.5, 2.5));
+        let way = ways.way_to(&from, Point::new(3.4, 0.6));
+        assert_eq!((way.first(), way.last()), (Some(&Point::new(3.5, 0.5)), Some(&Point::new(0.5, 2.5))));
+        assert_eq!(way.len(), 5, "{way:?}");
+        assert!(way.windows(2).all(|pair| nalgebra::distance(&pair[0], &pair[1]) < 1.5), "{way:?}");
+        assert!(ways.way_to(&from, Point::new(90.5, 0.5)).is_empty());
     }
 
     #[test]

@@ -7,6 +7,8 @@ mod error;
 #[cfg(feature = "report")]
 mod map_detection;
 mod named_world;
+#[cfg(feature = "report")]
+pub mod oracle;
 mod pace;
 mod plan;
 #[cfg(feature = "report")]

@@ -39,11 +39,17 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] for a setting out of its range or a start where the robot does not fit.
     pub fn prepare(&self) -> Result<(SimRobot, Explorer), PlanError> {
+        Ok((self.robot()?, Explorer::new(self.preset.explorer.clone(), &self.robot.traits())?))
+    }
+
+    /// The robot at its start, for who needs no explorer.
+    ///
+    /// # Errors
+    /// [`PlanError`] for a start where the robot does not fit.
+    pub fn robot(&self) -> Result<SimRobot, PlanError> {
         let navigator = self.preset.navigator(&self.robot.body());
         let world = Arc::clone(&self.world.world);
-        let sim = SimRobot::new(world, &self.robot, self.sim_config(), navigator, self.start)
-            .map_err(|source| self.wrong(source))?;
-        Ok((sim, Explorer::new(self.preset.explorer.clone(), &self.robot.traits())?))
+        SimRobot::new(world, &self.robot, self.sim_config(), navigator, self.start).map_err(|source| self.wrong(source))
     }
 
     /// The robot at its start without a mind, and who drives it to goals.

@@ -17,6 +17,7 @@ pub use joint_cost::{JointCost, JointCostConfig};
 pub use max_gain::MaxGain;
 pub use mrtsp::Mrtsp;
 pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
+pub(crate) use open_tour::OpenTour;
 pub use radius_distance::RadiusDistance;
 pub use tour::{PLACE, TOUR_M, Tour, TourConfig};
 pub use ways::{StraightWays, Ways};

@@ -238,6 +238,12 @@ impl Plant {
         &self.target
     }
 
+    /// What of that area has been seen.
+    #[must_use]
+    pub const fn coverage(&self) -> &Coverage {
+        &self.coverage
+    }
+
     pub(crate) fn now(&self) -> Micros {
         self.now
     }

@@ -1,7 +1,7 @@
 //! The simulated robot behind the port that the explorer knows: a plant, and who drives it.
 
 use super::schedule::{Micros, Periodic, seconds};
-use super::{Driver, MapperError, Plant, SimConfig, SimError, SimStats, TargetArea, World};
+use super::{Coverage, Driver, MapperError, Plant, SimConfig, SimError, SimStats, TargetArea, World};
 use crate::config::RobotConfig;
 use crate::geometry::{Pose, Twist};
 use crate::grid::OccupancyGrid;
@@ -100,6 +100,12 @@ impl SimRobot {
     #[must_use]
     pub const fn target(&self) -> &TargetArea {
         self.plant.target()
+    }
+
+    /// What of that area has been seen.
+    #[must_use]
+    pub const fn coverage(&self) -> &Coverage {
+        self.plant.coverage()
     }
 
     /// Lets simulated time pass; what falls together happens in the order scan, map,

@@ -43,6 +43,9 @@ pub struct ComparedPreset {
     pub name: String,
     /// All of its settings.
     pub settings: serde_json::Value,
+    /// Whether it is no preset but a planner that knows the world, which others are measured by.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_oracle: bool,
 }
 
 /// What is compared: every preset in every world from every start with every seed.
@@ -79,6 +82,12 @@ pub struct PlannedRun {
 }
 
 impl ComparisonPlan {
+    /// The oracle among the presets, if it takes part.
+    #[must_use]
+    pub fn oracle(&self) -> Option<&ComparedPreset> {
+        self.presets.iter().find(|preset| preset.is_oracle)
+    }
+
     /// All runs. Presets change fastest, so that the first runs of a list that is cut
     /// short compare as many presets as possible.
     #[must_use]

@@ -21,6 +21,7 @@ struct Page<'a> {
     lead: String,
     missing: usize,
     titles: Vec<&'static str>,
+    has_oracle: bool,
     legend: Vec<Preset<'a>>,
     summaries: Vec<SummaryRow>,
     liang: Option<Liang>,
@@ -43,6 +44,7 @@ struct SummaryRow {
     runs: usize,
     failed: usize,
     measures: Vec<SpreadCell>,
+    to_oracle: Option<SpreadCell>,
     coverage: String,
     goals: String,
     goals_failed: usize,
@@ -125,6 +127,7 @@ impl Comparison {
             lead: self.lead(),
             missing: self.missing(),
             titles: Measure::ALL.map(Measure::title).to_vec(),
+            has_oracle: self.plan.oracle().is_some(),
             legend: presets.map(|(i, preset)| Preset { name: &preset.name, color: css_color(i) }).collect(),
             summaries: summary_rows(&self.summaries()),
             liang: LiangTable::of(self).map(|table| liang(&table)),
@@ -205,7 +208,8 @@ fn summary_rows(summaries: &[Summary]) -> Vec<SummaryRow> {
         color: css_color(i),
         runs: summary.runs,
         failed: summary.failed,
-        measures: Measure::ALL.map(|measure| spread_cell(&summary.measure(measure))).into(),
+        measures: Measure::ALL.map(|measure| spread_cell(&summary.measure(measure), 0)).into(),
+        to_oracle: summary.t99_to_oracle.map(|ratio| spread_cell(&ratio, 2)),
         coverage: summary.coverage.map_or_else(dash, |share| format!("{:.1} %", share * 100.0)),
         goals: number(summary.goals_sent, 0),
         goals_failed: summary.goals_failed,
@@ -215,8 +219,8 @@ fn summary_rows(summaries: &[Summary]) -> Vec<SummaryRow> {
     summaries.iter().enumerate().map(row).collect()
 }
 
-fn spread_cell(spread: &Spread) -> SpreadCell {
-    let number = |value: Option<f64>| value.map_or_else(|| "∞".to_owned(), |value| format!("{value:.0}"));
+fn spread_cell(spread: &Spread, decimals: usize) -> SpreadCell {
+    let number = |value: Option<f64>| value.map_or_else(|| "∞".to_owned(), |value| format!("{value:.decimals$}"));
     let shown = spread.reached > 0;
     let words = |text: String| if shown { text } else { String::new() };
     SpreadCell {
@@ -233,8 +237,8 @@ fn liang(table: &LiangTable) -> Liang {
         method: row.method,
         preset: row.preset,
         paper: format!("{:.0}", row.paper_s),
-        tend: spread_cell(&row.tend),
-        t99: spread_cell(&row.t99),
+        tend: spread_cell(&row.tend, 0),
+        t99: spread_cell(&row.t99, 0),
     });
     Liang { rows: cells.collect(), verdict: table.verdict() }
 }
@@ -265,32 +269,5 @@ fn dash() -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::sample;
-    use super::*;
-
-    #[test]
-    fn the_page_stands_alone_and_holds_every_run() {
-        let presets = ["liang", "liang_closest", "liang_max_gain", "<q>"];
-        let plan = sample::plan(&presets, &["museum", "maze"], &[1, 2]);
-        let mut comparison = sample::comparison(plan, |p| 100.0 + 50.0 * p as f64);
-        let page = comparison.to_html().unwrap();
-        assert_eq!(page, comparison.to_html().unwrap());
-        for elsewhere in ["href=\"http", "src=\"http", "<script", "@import", "<q>"] {
-            assert!(!page.contains(elsewhere), "{elsewhere}");
-        }
-        assert_eq!(page.matches("<polyline class=\"way\"").count(), 2 * 4);
-        assert_eq!(page.matches("<tr class=\"run\">").count(), 2 * 4 * 2);
-        assert!(page.contains("431") && page.contains("proposed"));
-        assert!(!page.contains("not made"));
-        comparison.runs.truncate(1);
-        assert!(comparison.to_html().unwrap().contains("15 runs of the plan were not made"));
-    }
-
-    #[test]
-    fn what_is_not_reached_is_shown_as_such() {
-        let cell = spread_cell(&Spread::of([Some(10.0), None, None]));
-        assert_eq!((cell.median.as_str(), cell.range.as_str(), cell.reached.as_str()), ("∞", "∞–∞", "1/3"));
-        assert_eq!(spread_cell(&Spread::of([None])).median, "–");
-    }
-}
+#[path = "page_tests.rs"]
+mod tests;

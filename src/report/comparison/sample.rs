@@ -16,7 +16,11 @@ pub fn plan(presets: &[&str], worlds: &[&str], seeds: &[u64]) -> ComparisonPlan 
         top_m: 5.0,
         m_per_px: 0.1,
     };
-    let preset = |name: &&str| ComparedPreset { name: (*name).to_owned(), settings: serde_json::json!({}) };
+    let preset = |name: &&str| ComparedPreset {
+        name: (*name).to_owned(),
+        settings: serde_json::json!({}),
+        is_oracle: *name == "oracle",
+    };
     let world = |name: &&str| ComparedWorld {
         name: (*name).to_owned(),
         starts: vec![Pose::new(1.0, 1.0, 0.0)],

@@ -76,6 +76,10 @@ pub struct Summary {
     pub collisions: usize,
     /// What was measured.
     pub measures: BTreeMap<Measure, Spread>,
+    /// Its T99 as a multiple of the oracle's in the same world, from the same start, with the
+    /// same seed, where the oracle took part and reached it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub t99_to_oracle: Option<Spread>,
     /// The median over the runs of the median time of a decision, milliseconds.
     #[serde(skip)]
     pub decision_median_ms: Option<f64>,
@@ -99,6 +103,7 @@ impl Summary {
             goals_failed: runs.iter().map(|run| run.goals_failed).sum(),
             collisions: runs.iter().map(|run| run.collisions).sum(),
             measures: Measure::ALL.into_iter().map(measure).collect(),
+            t99_to_oracle: comparison.t99_to_oracle(&runs),
             decision_median_ms: median(&|run| run.wall.decision_ms.median),
             decision_max_ms: runs.iter().map(|run| run.wall.decision_ms.max).reduce(f64::max),
         }
@@ -112,6 +117,20 @@ impl Summary {
 }
 
 impl Comparison {
+    /// How many times as long as the oracle's some runs took to 99 %; `None` without an oracle.
+    fn t99_to_oracle(&self, runs: &[&ComparedRun]) -> Option<Spread> {
+        let oracle = self.plan.oracle()?;
+        let key = |run: &ComparedRun| (run.world.clone(), run.start_number, run.seed);
+        let oracles: BTreeMap<_, f64> =
+            self.runs_of(&oracle.name, None).filter_map(|run| Some((key(run), Measure::T99.of(run)?))).collect();
+        let ratio = |run: &ComparedRun, least_s: f64| match Measure::T99.of(run)? {
+            // Where a first look is enough, nobody is slower.
+            time_s if time_s <= least_s && least_s == 0.0 => Some(1.0),
+            time_s => Some(time_s / least_s).filter(|ratio| ratio.is_finite()),
+        };
+        Some(Spread::of(runs.iter().filter_map(|run| Some(ratio(run, *oracles.get(&key(run))?)))))
+    }
+
     /// One summary for each preset, over all worlds.
     #[must_use]
     pub fn summaries(&self) -> Vec<Summary> {
@@ -144,6 +163,23 @@ mod tests {
         assert_eq!(a.measure(Measure::T50).reached, 3);
         assert_eq!(b.measure(Measure::T50).median, Some(100.0));
         assert_eq!(b.measure(Measure::Distance).median, Some(100.0));
+    }
+
+    #[test]
+    fn a_time_is_a_multiple_of_the_oracles_in_the_same_place() {
+        let plan = sample::plan(&["a", "oracle"], &["v", "w"], &[1, 2]);
+        let mut comparison = sample::comparison(plan, |p| [150.0, 100.0][p]);
+        // The oracle of one run is slower, of one it is missing, and one run never gets there.
+        comparison.runs[1].time_to_coverage_s.insert("0.99".to_owned(), Some(148.5));
+        comparison.runs[2].time_to_coverage_s.insert("0.99".to_owned(), None);
+        comparison.runs.remove(7);
+        let [a, oracle]: [Summary; 2] = comparison.summaries().try_into().unwrap();
+        let ratio = a.t99_to_oracle.unwrap();
+        assert_eq!((ratio.reached, ratio.of, ratio.median, ratio.q25), (2, 3, Some(1.5), Some(1.25)));
+        assert_eq!(oracle.t99_to_oracle.unwrap().median, Some(1.0));
+        assert_eq!(comparison.summaries_by_world()[2].t99_to_oracle.unwrap().of, 1);
+        let without = sample::comparison(sample::plan(&["a"], &["w"], &[1]), |_| 100.0);
+        assert_eq!(without.summaries()[0].t99_to_oracle, None);
     }
 
     #[test]

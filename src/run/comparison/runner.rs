@@ -6,6 +6,7 @@ use crate::config::{Preset, RobotConfig};
 use crate::explore::{EndReason, run as explore};
 use crate::report::{ComparedPreset, ComparedRun, ComparisonPlan, PlannedRun};
 use crate::run::Plan;
+use crate::run::oracle::{ORACLE, oracle_preset, run_oracle};
 use crate::run::record::SimRecorder;
 use crate::sim::{DriverKind, MapStyle, SlamKind};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -22,6 +23,8 @@ pub struct Runner {
     worlds: Vec<LoadedWorld>,
     slam: SlamKind,
     time_limit_s: f64,
+    /// The settings of the oracle, where it takes part.
+    oracle: Option<Preset>,
 }
 
 impl Runner {
@@ -45,7 +48,19 @@ impl Runner {
         unless_twice("preset", presets.iter().map(|preset| preset.preset.as_str()))?;
         let worlds = load_worlds(worlds, starts, &robot)?;
         unless_twice("world", worlds.iter().map(|world| world.named.name.as_str()))?;
-        Ok(Self { presets, robot, worlds, slam, time_limit_s })
+        Ok(Self { presets, robot, worlds, slam, time_limit_s, oracle: None })
+    }
+
+    /// The same with runs of the oracle ([`crate::run::oracle`]) beside those of the presets.
+    ///
+    /// # Errors
+    /// [`CompareError::NameTwice`] for a preset that has its name.
+    pub fn with_oracle(self) -> Result<Self, CompareError> {
+        let names = self.presets.iter().map(|preset| preset.preset.as_str());
+        unless_twice("preset", names.chain([ORACLE]))?;
+        let mut oracle = oracle_preset();
+        oracle.explorer.patience.time_limit_s = Some(self.time_limit_s);
+        Ok(Self { oracle: Some(oracle), ..self })
     }
 
     /// Every preset in every world from every start with every seed.
@@ -57,14 +72,18 @@ impl Runner {
         if let Some(&seed) = seeds.iter().find(|seed| !seen.insert(**seed)) {
             return Err(CompareError::SeedTwice(seed));
         }
-        let compared = |preset: &Preset| {
-            Ok(ComparedPreset { name: preset.preset.clone(), settings: serde_json::to_value(preset)? })
+        let compared = |(preset, is_oracle): (&Preset, bool)| {
+            let (name, settings) = (preset.preset.clone(), serde_json::to_value(preset)?);
+            Ok(ComparedPreset { name, settings, is_oracle })
         };
+        let all =
+            self.presets.iter().map(|preset| (preset, false)).chain(self.oracle.iter().map(|oracle| (oracle, true)));
+        let presets = all.map(compared).collect::<Result<_, CompareError>>()?;
         Ok(ComparisonPlan {
             robot: self.robot.name.clone(),
             slam: self.slam.told(),
             time_limit_s: Some(self.time_limit_s),
-            presets: self.presets.iter().map(compared).collect::<Result<_, CompareError>>()?,
+            presets,
             worlds: self.worlds.iter().map(|world| world.compared.clone()).collect(),
             seeds: seeds.to_vec(),
         })
@@ -101,6 +120,10 @@ impl Runner {
         }
         let began = Instant::now();
         let plan = self.plan_of(run).ok_or(CompareError::NotPlanned(run.index))?;
+        if run.preset >= self.presets.len() {
+            let made = run_oracle(&plan, stop)?;
+            return Ok(made.map(|made| ComparedRun::new(run, &made.record, &made.trajectory)));
+        }
         let (mut sim, mut explorer) = plan.prepare()?;
         let mut recorder = SimRecorder::of_figures(Arc::clone(stop));
         let end = explore(&mut sim, &mut explorer, &mut recorder);
@@ -114,7 +137,7 @@ impl Runner {
     fn plan_of(&self, run: &PlannedRun) -> Option<Plan> {
         let world = self.worlds.get(run.world)?;
         Some(Plan {
-            preset: self.presets.get(run.preset)?.clone(),
+            preset: self.presets.iter().chain(&self.oracle).nth(run.preset)?.clone(),
             robot: self.robot.clone(),
             world: world.named.clone(),
             start: *world.compared.starts.get(run.start)?,

@@ -1,0 +1,67 @@
+//! What is recorded of an oracle's drive: the same figures as of every run.
+
+use super::ORACLE;
+use super::pilot::Driven;
+use crate::explore::{LeftBehind, TimeSpent};
+use crate::geometry::Point;
+use crate::report::{MedianMax, RunRecord, SCHEMA_VERSION, Wall};
+use crate::run::Plan;
+
+/// The best drive that was found.
+pub struct OracleRun {
+    /// What is recorded of it; there are no decisions.
+    pub record: RunRecord<()>,
+    /// The way driven, metres of the map frame.
+    pub trajectory: Vec<Point>,
+}
+
+impl Driven {
+    /// The drive as reports keep it; with all planning it took `total_s` seconds of real time.
+    pub(super) fn record(self, plan: &Plan, total_s: f64) -> OracleRun {
+        let Self { end, series, trajectory, stats, counts } = self;
+        let record = RunRecord {
+            schema_version: SCHEMA_VERSION,
+            world: plan.world.name.clone(),
+            preset: ORACLE.to_owned(),
+            robot: plan.robot.name.clone(),
+            seed: Some(plan.seed),
+            slam: plan.slam.told(),
+            start: plan.start,
+            end_reason: end,
+            end_message: end.name().replace('_', " "),
+            coverage: stats.coverage,
+            sim_time_s: stats.sim_time_s,
+            distance_m: stats.distance_m,
+            turned_rad: stats.turned_rad,
+            goals_sent: counts.goals_sent,
+            goals_failed: counts.goals_failed,
+            collisions: stats.collisions,
+            known_area_m2: stats.known_area_m2,
+            free_area_m2: stats.coverage * stats.target_area_m2,
+            time_to_coverage_s: series.time_to_coverage_s(),
+            distance_to_coverage_m: series.distance_to_coverage_m(),
+            counts,
+            time_spent: TimeSpent::default(),
+            notices: Vec::new(),
+            left_behind: LeftBehind::default(),
+            decisions: Vec::new(),
+            series: series.points(),
+            wall: Wall { total_s, decision_ms: MedianMax::default() },
+        };
+        OracleRun { record, trajectory }
+    }
+
+    /// How long it took until enough was seen, seconds.
+    pub(super) fn done_s(&self) -> Option<f64> {
+        self.is_done().then_some(self.stats.sim_time_s)
+    }
+
+    /// Whether it saw enough sooner, or more where neither saw enough.
+    pub(super) fn is_better_than(&self, other: &Self) -> bool {
+        match (self.done_s(), other.done_s()) {
+            (Some(mine), Some(theirs)) => mine < theirs,
+            (None, None) => self.stats.coverage > other.stats.coverage,
+            (mine, _) => mine.is_some(),
+        }
+    }
+}
