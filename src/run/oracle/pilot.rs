@@ -79,6 +79,24 @@ pub(super) struct Limits<'a> {
     pub stop: &'a AtomicBool,
 }
 
+/// What is done between two drives.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pause {
+    /// A look round at the block that was reached.
+    Turn,
+    /// Getting away from where no way is free, as an explorer does.
+    BackOff,
+}
+
+impl Pause {
+    const fn command(self, id: CommandId) -> Command {
+        match self {
+            Self::Turn => Command::Turn { id, angle_rad: TAU },
+            Self::BackOff => Command::BackOff { id },
+        }
+    }
+}
+
 /// Who drives.
 pub(super) struct Pilot<'a> {
     routes: &'a mut Routes,
@@ -88,7 +106,8 @@ pub(super) struct Pilot<'a> {
     share: f64,
     id: CommandId,
     stage: Option<Stage>,
-    turning: bool,
+    /// What it does instead of driving on.
+    pause: Option<Pause>,
     /// The block reached since the last map.
     reached: Option<usize>,
     map_version: u64,
@@ -107,7 +126,7 @@ impl<'a> Pilot<'a> {
             share,
             id: 0,
             stage: None,
-            turning: false,
+            pause: None,
             reached: None,
             map_version: 0,
             moved: (0.0, Pose::default()),
@@ -150,7 +169,7 @@ impl<'a> Pilot<'a> {
     /// The block under way is given up when the robot has not moved for long.
     fn watch_motion(&mut self, now_s: f64, pose: &Pose) {
         let (since_s, from) = self.moved;
-        if pose.distance_to(from.position()) > 0.2 || self.turning {
+        if pose.distance_to(from.position()) > 0.2 || self.pause.is_some() {
             self.moved = (now_s, *pose);
         } else if now_s - since_s > STALL_S {
             self.moved = (now_s, *pose);
@@ -165,20 +184,28 @@ impl<'a> Pilot<'a> {
         self.stage = None;
     }
 
+    const fn begin(&mut self, pause: Pause) -> Command {
+        self.id += 1;
+        self.pause = Some(pause);
+        pause.command(self.id)
+    }
+
     /// What the robot shall do, `None` where nothing more can be done.
     fn decide(&mut self, robot: &SimRobot, observation: &Observation, pose: &Pose, is_news: bool) -> Option<Command> {
         let state = (observation.navigation.command == self.id).then_some(&observation.navigation.state);
-        if self.turning {
+        if let Some(pause) = self.pause {
             if matches!(state, Some(NavigationState::Active | NavigationState::Idle) | None) {
-                return Some(Command::Turn { id: self.id, angle_rad: TAU });
+                return Some(pause.command(self.id));
             }
-            self.turning = false;
-            self.reached = Some(self.route.remove(0));
-            self.stage = None;
+            (self.pause, self.stage) = (None, None);
+            if pause == Pause::Turn {
+                self.reached = Some(self.route.remove(0));
+            }
         }
         if matches!(state, Some(NavigationState::Aborted(_))) && self.stage.is_some() {
             self.counts.goals_failed += 1;
             self.give_up();
+            return Some(self.begin(Pause::BackOff));
         }
         let map = observation.map.as_ref()?;
         let is_new_map = map.version() != self.map_version;
@@ -206,9 +233,7 @@ impl<'a> Pilot<'a> {
             }
             self.stage = None;
             if !self.routes.sights.is_all_round() && !self.is_seen(next, robot) {
-                self.id += 1;
-                self.turning = true;
-                return Some(Command::Turn { id: self.id, angle_rad: TAU });
+                return Some(self.begin(Pause::Turn));
             }
             self.reached = Some(self.route.remove(0));
         }
