@@ -4,8 +4,10 @@
 //! Both engines give what [`Wavefront`](super::Wavefront) gives, to the cell and in the same
 //! order, so that it is a question of time alone which of them is asked.
 
+mod find_cells;
 mod from_scratch;
 mod lazy_fill;
+mod placement;
 mod repair;
 
 pub use from_scratch::FromScratch;
@@ -13,7 +15,7 @@ pub use repair::Repair;
 
 use super::FrontierCells;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector};
-use crate::grid::Neighbourhood;
+use crate::grid::{GridInfo, Neighbourhood};
 use std::sync::Arc;
 
 /// The detector: both engines, with what they keep from map to map.
@@ -40,8 +42,8 @@ use std::sync::Arc;
 pub struct Bitplane {
     from_scratch: FromScratch,
     repair: Repair,
-    /// Columns and rows of the last map.
-    size: Option<(usize, usize)>,
+    /// Size and place of the last map.
+    last: Option<GridInfo>,
     /// The version of the map that the second engine knows.
     known: Option<u64>,
 }
@@ -58,7 +60,7 @@ impl Bitplane {
         Self {
             from_scratch: FromScratch::with_grouping(params, grouping),
             repair: Repair::with_grouping(params, grouping),
-            size: None,
+            last: None,
             known: None,
         }
     }
@@ -79,9 +81,10 @@ impl Bitplane {
     }
 
     fn detect_shared(&mut self, input: &DetectionInput<'_>) -> Result<&Arc<FrontierCells>, DetectError> {
-        let size = (input.grid.info().width(), input.grid.info().height());
+        let info = input.grid.info();
+        let follows = self.last.replace(*info).is_some_and(|last| placement::moved(&last, info).is_some());
         // A fill that meets little of the map is faster than to repair all of it.
-        if self.size.replace(size) != Some(size) || self.from_scratch.was_lazy() {
+        if !follows || self.from_scratch.was_lazy() {
             return self.from_scratch.detect_shared(input);
         }
         let changed = self.known.zip(input.changes).and_then(|(known, changes)| changes.since(known));
@@ -100,7 +103,7 @@ impl FrontierDetector for Bitplane {
     }
 
     fn forget(&mut self) {
-        self.size = None;
+        self.last = None;
     }
 }
 
