@@ -7,7 +7,6 @@
 mod find_cells;
 mod from_scratch;
 mod lazy_fill;
-mod placement;
 mod repair;
 
 pub use from_scratch::FromScratch;
@@ -15,6 +14,7 @@ pub use repair::Repair;
 
 use super::FrontierCells;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector};
+use crate::bits::placement::moved;
 use crate::grid::{GridInfo, Neighbourhood};
 use std::sync::Arc;
 
@@ -82,7 +82,7 @@ impl Bitplane {
 
     fn detect_shared(&mut self, input: &DetectionInput<'_>) -> Result<&Arc<FrontierCells>, DetectError> {
         let info = input.grid.info();
-        let follows = self.last.replace(*info).is_some_and(|last| placement::moved(&last, info).is_some());
+        let follows = self.last.replace(*info).is_some_and(|last| moved(&last, info).is_some());
         // A fill that meets little of the map is faster than to repair all of it.
         if !follows || self.from_scratch.was_lazy() {
             return self.from_scratch.detect_shared(input);

@@ -8,13 +8,13 @@
 //!
 //! O(cells compared + tiles + what changed + cells of all frontiers), the last with the
 //! constant of a copy. A map that grew or shrank by whole cells, on whichever sides, keeps what lies
-//! at the same place ([`placement`](super::placement)); any other one of another size starts over.
+//! at the same place ([`placement`](crate::bits::placement)); any other one of another size starts over.
 
 mod take_in;
 
 use super::find_cells::FindCells;
-use super::placement::Placement;
 use crate::bits::connectivity::tile_graph::TileGraph;
+use crate::bits::placement::Placement;
 use crate::bits::word_spans::WordSpans;
 use crate::bits::{BitPlane, BitPlanes, prefetch, with_bit_instructions};
 use crate::frontier::grouping::cell_lists::FrontierCells;

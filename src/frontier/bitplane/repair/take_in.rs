@@ -3,9 +3,9 @@
 use super::Repair;
 use crate::bits::connectivity::tiling::{TILE_ROWS, TILE_WORDS};
 use crate::bits::neighbours::neighbours_of_row;
+use crate::bits::placement::{Growth, Placement};
 use crate::bits::word_spans::WordSpan;
 use crate::bits::words_of;
-use crate::frontier::bitplane::placement::{Growth, Placement};
 use crate::frontier::{DetectionInput, Reachability};
 use crate::grid::CellRect;
 use std::ops::Range;

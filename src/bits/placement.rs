@@ -15,13 +15,13 @@ const MOST_EMPTY: usize = 4;
 
 /// A map and where its first cell lies in the planes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placement {
+pub(crate) struct Placement {
     info: GridInfo,
     corner: (usize, usize),
 }
 
 /// From the placement of one map to that of the next.
-pub(super) struct Step {
+pub(crate) struct Step {
     /// Where the next map lies.
     pub placement: Placement,
     /// By how many columns and rows cells of the last map lie further on in the next.
@@ -33,7 +33,7 @@ pub(super) struct Step {
 }
 
 /// A larger size for planes, in columns and rows.
-pub(super) struct Growth {
+pub(crate) struct Growth {
     pub size: (usize, usize),
     /// The columns of tiles that come in front, and the rows of them that come below.
     pub tiles: (usize, usize),
@@ -99,7 +99,7 @@ impl Placement {
 
 /// By how many columns and rows cells of one map lie further on in the next; `None` if the two
 /// have no cell in common.
-pub(super) fn moved(last: &GridInfo, next: &GridInfo) -> Option<(i32, i32)> {
+pub(crate) fn moved(last: &GridInfo, next: &GridInfo) -> Option<(i32, i32)> {
     let Some((x, y)) = next.offset_of(last) else {
         let is_same_size = (last.width(), last.height()) == (next.width(), next.height());
         return is_same_size.then_some((0, 0));
