@@ -23,8 +23,8 @@ mod table;
 use frontier_explorer::frontier::{
     DetectionInput, DetectorParams, FromScratch, Frontier, FrontierDetector, Repair, Wavefront,
 };
-use frontier_explorer::geometry::Point;
-use frontier_explorer::grid::{Cell, CellRect, OccupancyGrid};
+use frontier_explorer::geometry::{Point, Pose};
+use frontier_explorer::grid::{Cell, CellRect, GridInfo, OccupancyGrid};
 use frontier_explorer::io::load_map;
 use scenes::Scene;
 use std::cell::RefCell;
@@ -37,6 +37,9 @@ const SIZES: [u32; 5] = [500, 1000, 2000, 4000, 8000];
 
 /// The edge of the patch that changes, cells.
 const PATCH: usize = 200;
+
+/// Columns to the left and rows below by which a map grows.
+const GROWN: [usize; 2] = [40, 24];
 
 /// The times of one scene, milliseconds.
 pub struct Row {
@@ -58,6 +61,9 @@ pub struct Row {
     pub patch_again_ms: f64,
     /// Of a patch changed, not told which.
     pub resent_ms: f64,
+    /// Of a map that grew by unknown cells on two sides, told that nothing else changed: the first
+    /// time, when the planes grow too, and the second.
+    pub grown_ms: [f64; 2],
     /// The state of the detector from scratch and of the one that keeps the map, bytes a cell.
     pub memory: [f64; 2],
 }
@@ -135,6 +141,8 @@ fn main() {
 
 /// Something that is timed: the least of its times, and what all of them took.
 struct Contender<'a> {
+    /// What is done before, and not timed.
+    prepare: Box<dyn FnMut() + 'a>,
     work: Box<dyn FnMut() + 'a>,
     least_ms: f64,
     spent_ms: f64,
@@ -142,7 +150,11 @@ struct Contender<'a> {
 
 impl<'a> Contender<'a> {
     fn new(work: impl FnMut() + 'a) -> Self {
-        Self { work: Box::new(work), least_ms: f64::INFINITY, spent_ms: 0.0 }
+        Self::prepared(|| (), work)
+    }
+
+    fn prepared(prepare: impl FnMut() + 'a, work: impl FnMut() + 'a) -> Self {
+        Self { prepare: Box::new(prepare), work: Box::new(work), least_ms: f64::INFINITY, spent_ms: 0.0 }
     }
 }
 
@@ -175,6 +187,25 @@ fn measure(scene: &Scene, size: u32) -> Row {
     if size <= 2000 {
         assert!(textbook.detect(&inputs[0]).unwrap() == frontiers, "{} {size}", scene.name);
     }
+    let larger = [grown(&scene.grid), grown(&grown(&scene.grid))];
+    let larger = larger.each_ref().map(|grid| DetectionInput::new(grid, scene.robot));
+    let mut before = vec![kept[0].clone()];
+    for input in &larger {
+        let mut grows = before[before.len() - 1].clone();
+        let found = Arc::new(grows.update(input, Some(CellRect::default())).unwrap().clone());
+        assert!(Frontier::all_of(&found) == bitplane.detect(input).unwrap(), "{} {size}", scene.name);
+        before.push(grows);
+    }
+    let grows = RefCell::new(Repair::new(params));
+    let grow = |at: usize| {
+        let (grows, before, input) = (&grows, &before[at], &larger[at]);
+        Contender::prepared(
+            || grows.borrow_mut().clone_from(before),
+            || {
+                black_box(grows.borrow_mut().update(input, Some(CellRect::default())).unwrap());
+            },
+        )
+    };
     bitplane.detect_cells(&inputs[0]).unwrap();
     let cells = scene.grid.data().len() as f64;
     let memory = [bitplane.memory_bytes() as f64 / cells, kept[0].memory_bytes() as f64 / cells];
@@ -202,9 +233,12 @@ fn measure(scene: &Scene, size: u32) -> Row {
             turn = 1 - turn;
             black_box(by_grid.update(&inputs[turn], None).unwrap());
         }),
+        grow(0),
+        grow(1),
     ];
     for _ in 0..ROUNDS {
         for contender in contenders.iter_mut().filter(|c| c.spent_ms < BUDGET_MS) {
+            (contender.prepare)();
             let began = Instant::now();
             (contender.work)();
             let took_ms = began.elapsed().as_secs_f64() * 1e3;
@@ -212,9 +246,36 @@ fn measure(scene: &Scene, size: u32) -> Row {
             contender.least_ms = contender.least_ms.min(took_ms);
         }
     }
-    let [byte_sum_ms, textbook_ms, bitplane_ms, patch_ms, patch_again_ms, resent_ms] = contenders.map(|c| c.least_ms);
-    let (scene, frontiers) = (scene.name, frontiers.len());
-    Row { scene, size, frontiers, byte_sum_ms, textbook_ms, bitplane_ms, patch_ms, patch_again_ms, resent_ms, memory }
+    let [byte_sum_ms, textbook_ms, bitplane_ms, patch_ms, patch_again_ms, resent_ms, grown_ms, grown_again_ms] =
+        contenders.map(|contender| contender.least_ms);
+    Row {
+        scene: scene.name,
+        size,
+        frontiers: frontiers.len(),
+        byte_sum_ms,
+        textbook_ms,
+        bitplane_ms,
+        patch_ms,
+        patch_again_ms,
+        resent_ms,
+        grown_ms: [grown_ms, grown_again_ms],
+        memory,
+    }
+}
+
+/// The map with unknown cells more to the left and below.
+fn grown(grid: &OccupancyGrid) -> OccupancyGrid {
+    let old = grid.info();
+    let corner = old.from_grid_units(-(GROWN[0] as f64), -(GROWN[1] as f64));
+    let (width, height) = (old.width() + GROWN[0], old.height() + GROWN[1]);
+    let origin = Pose::new(corner.x, corner.y, 0.0);
+    let info = GridInfo::new(width as u32, height as u32, old.resolution_m(), origin).unwrap();
+    let mut larger = OccupancyGrid::filled(info, OccupancyGrid::UNKNOWN);
+    let rows = larger.data_mut().chunks_exact_mut(width).skip(GROWN[1]);
+    for (to, from) in rows.zip(grid.data().chunks_exact(old.width())) {
+        to[GROWN[0]..].copy_from_slice(from);
+    }
+    larger
 }
 
 /// The map with another patch near the robot: part unknown, part specks.

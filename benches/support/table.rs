@@ -5,7 +5,7 @@ use super::Row;
 /// The head of the lines.
 pub fn header() -> String {
     format!(
-        "{:>8} {:>5} {:>9} | {:>8} {:>9} {:>8} {:>7} {:>7} {:>7} | {:>8} {:>9} {:>9} {:>6} {:>9} | bytes a cell",
+        "{:>8} {:>5} {:>9} | {:>8} {:>9} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} | {:>8} {:>9} {:>9} {:>6} {:>9} | bytes a cell",
         "scene",
         "size",
         "frontiers",
@@ -15,14 +15,16 @@ pub fn header() -> String {
         "patch",
         "again",
         "resent",
+        "grown",
+        "on",
         "bitplane/",
         "textbook/",
         "bitplane/",
         "again",
         "(resent -",
     ) + &format!(
-        "\n{:>24} | {:>8} {:>9} {:>8} {:>7} {:>7} {:>7} | {:>9} {:>9} {:>9} {:>6} {:>9} | scratch kept",
-        "", "ms", "ms", "ms", "ms", "ms", "ms", "byte sum", "bitplane", "patch", "", "patch)/sum",
+        "\n{:>24} | {:>8} {:>9} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} | {:>9} {:>9} {:>9} {:>6} {:>9} | scratch kept",
+        "", "ms", "ms", "ms", "ms", "ms", "ms", "ms", "ms", "byte sum", "bitplane", "patch", "", "patch)/sum",
     )
 }
 
@@ -41,7 +43,7 @@ fn ratios(row: &Row) -> [f64; 5] {
 pub fn line(row: &Row) -> String {
     let [sums, textbook, patch, again, resent] = ratios(row);
     format!(
-        "{:>8} {:>5} {:>9} | {:>8.3} {:>9.3} {:>8.3} {:>7.3} {:>7.3} {:>7.3} | {sums:>9.2} {textbook:>9.1} \
+        "{:>8} {:>5} {:>9} | {:>8.3} {:>9.3} {:>8.3} {:>7.3} {:>7.3} {:>7.3} {:>7.3} {:>7.3} | {sums:>9.2} {textbook:>9.1} \
          {patch:>9.1} {again:>6.1} {resent:>9.2} | {:>7.2} {:>4.2}",
         row.scene,
         row.size,
@@ -52,6 +54,8 @@ pub fn line(row: &Row) -> String {
         row.patch_ms,
         row.patch_again_ms,
         row.resent_ms,
+        row.grown_ms[0],
+        row.grown_ms[1],
         row.memory[0],
         row.memory[1],
     )
@@ -65,11 +69,13 @@ fn short(value: f64) -> String {
 
 /// All scenes, for a document.
 pub fn markdown(rows: &[Row]) -> String {
-    let head = "| scene | edge, cells | byte sum | textbook | bitplane | patch | again | resent | state |\n\
-                |---|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    let head = "| scene | edge, cells | byte sum | textbook | bitplane | patch | again | resent | grown | on | state |\n\
+                |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     let line = |row: &Row| {
+        let [patch, patch_again, grown, grown_again] =
+            [row.patch_ms, row.patch_again_ms, row.grown_ms[0], row.grown_ms[1]];
         let times =
-            [row.byte_sum_ms, row.textbook_ms, row.bitplane_ms, row.patch_ms, row.patch_again_ms, row.resent_ms];
+            [row.byte_sum_ms, row.textbook_ms, row.bitplane_ms, patch, patch_again, row.resent_ms, grown, grown_again];
         let times = times.map(short).join(" | ");
         format!("| {} | {} | {times} | {:.2}, {:.2} |\n", row.scene, row.size, row.memory[0], row.memory[1])
     };

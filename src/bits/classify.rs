@@ -34,6 +34,27 @@ impl Classifier {
         }
     }
 
+    /// The same of cells that begin `lead` bits behind the beginning of the first word. All bits of
+    /// both slices that stand for no cell are zero.
+    pub fn classify_behind(&self, lead: usize, mut cells: &[i8], free: &mut [u64], unknown: &mut [u64]) {
+        let mut next = (lead / WORD_CELLS).min(free.len());
+        let (begun, missing) = (lead % WORD_CELLS, (WORD_CELLS - lead % WORD_CELLS) % WORD_CELLS);
+        free[..next].fill(0);
+        unknown[..next].fill(0);
+        if begun > 0 && !cells.is_empty() {
+            let head;
+            (head, cells) = cells.split_at(missing.min(cells.len()));
+            let mut padded = [[OccupancyGrid::OCCUPIED; WORD_CELLS]];
+            padded[0][begun..begun + head.len()].copy_from_slice(head);
+            self.classify_words(&padded, &mut free[next..], &mut unknown[next..]);
+            next += 1;
+        }
+        self.classify(cells, &mut free[next..], &mut unknown[next..]);
+        next += cells.len().div_ceil(WORD_CELLS);
+        free[next..].fill(0);
+        unknown[next..].fill(0);
+    }
+
     fn classify_words(&self, cells: &[[i8; WORD_CELLS]], free: &mut [u64], unknown: &mut [u64]) {
         #[cfg(target_arch = "x86_64")]
         {
@@ -138,6 +159,23 @@ mod tests {
             for length in 0..200 {
                 check(&values[start..start + length], Thresholds::default());
             }
+        }
+    }
+
+    #[test]
+    fn cells_stand_as_far_behind_as_is_said() {
+        let classifier = Classifier::new(&Thresholds::default());
+        let values = values(200);
+        for (lead, length) in (0..200usize).flat_map(|lead| [0usize, 1, 30, 64, 70, 200].map(|length| (lead, length))) {
+            let words = (lead + length).div_ceil(WORD_CELLS) + 1;
+            let mut padded = vec![OccupancyGrid::OCCUPIED; words * WORD_CELLS];
+            padded[lead..lead + length].copy_from_slice(&values[..length]);
+            let [mut expected, mut found] = [[0; 2], [7; 2]].map(|bits| bits.map(|bits| vec![bits; words]));
+            let [free, unknown] = &mut expected;
+            classifier.classify(&padded, free, unknown);
+            let [free, unknown] = &mut found;
+            classifier.classify_behind(lead, &values[..length], free, unknown);
+            assert_eq!(found, expected, "{length} cells behind {lead}");
         }
     }
 

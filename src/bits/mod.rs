@@ -8,6 +8,7 @@ pub(crate) mod contacts;
 pub(crate) mod labels;
 pub(crate) mod neighbours;
 mod pack;
+pub(crate) mod placement;
 mod plane;
 mod planes;
 mod prefetch;

@@ -1,7 +1,7 @@
 //! A plane of one bit for each cell of a grid, in words of 64 cells.
 
 use super::BitWork;
-use crate::grid::{Cell, CellRect, GridInfo};
+use crate::grid::{Cell, CellRect};
 use std::ops::Range;
 
 /// Cells in a word.
@@ -16,11 +16,10 @@ pub fn with_bit_instructions<W: BitWork>(work: W) -> W::Output {
     work.run()
 }
 
-/// The words of a plane's rows that hold the columns of a rectangle within a grid.
+/// The words of a plane's rows that hold the columns of a rectangle.
 #[must_use]
-pub fn words_of(rect: &CellRect, info: &GridInfo) -> Range<usize> {
-    let Range { start, end } = rect.columns(info);
-    if start == end { 0..0 } else { start / WORD_CELLS..end.div_ceil(WORD_CELLS) }
+pub const fn words_of(rect: &CellRect) -> Range<usize> {
+    rect.x / WORD_CELLS..(rect.x + rect.width).div_ceil(WORD_CELLS)
 }
 
 /// One bit for each cell of a grid. Cell `(x, y)` is bit `x % 64` of word `x / 64` of
@@ -51,6 +50,30 @@ impl BitPlane {
             self.words.clear();
             self.words.resize(self.row_words * height, 0);
         }
+    }
+
+    /// Grows to a size, with so many words more in front of each row and so many rows more below
+    /// the first; new bits are clear. The size must hold all that was there, and a width that is not
+    /// the old one must be of whole words.
+    pub fn grow(&mut self, width: usize, height: usize, (words, rows): (usize, usize)) {
+        let row_words = width.div_ceil(WORD_CELLS);
+        self.words.reserve_exact((row_words * height).saturating_sub(self.words.len()));
+        self.words.resize(row_words * height, 0);
+        let moved = self.row_words;
+        // From the last row on, as no row comes to lie before where it was.
+        for y in (0..height).rev() {
+            let start = y * row_words;
+            match y.checked_sub(rows).filter(|&from| from < self.height) {
+                Some(from) => {
+                    let from = from * self.row_words;
+                    self.words.copy_within(from..from + moved, start + words);
+                    self.words[start..start + words].fill(0);
+                    self.words[start + words + moved..start + row_words].fill(0);
+                }
+                None => self.words[start..start + row_words].fill(0),
+            }
+        }
+        (self.width, self.height, self.row_words) = (width, height, row_words);
     }
 
     /// Clears all bits.

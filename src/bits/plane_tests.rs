@@ -19,6 +19,23 @@ fn runs_are_cleared_to_the_cell() {
 }
 
 #[test]
+fn cells_of_a_plane_that_grows_stay_beside_each_other() {
+    let mut plane = BitPlane::new(70, 5);
+    let cells = || (0..350).filter(|i| i % 7 < 3 || i % 5 == 1).map(|i| Cell::new(i % 70, i / 70));
+    cells().for_each(|cell| plane.insert(cell));
+    let count = plane.count();
+    let mut at = (0, 0);
+    for (width, height, words, rows) in
+        [(128, 5, 0, 0), (128, 9, 0, 4), (256, 9, 1, 0), (448, 12, 2, 1), (448, 14, 0, 0)]
+    {
+        plane.grow(width, height, (words, rows));
+        at = (at.0 + 64 * words as i32, at.1 + rows as i32);
+        assert_eq!((plane.width(), plane.height(), plane.words().len()), (width, height, width / 64 * height));
+        assert!(plane.count() == count && cells().all(|cell| plane.contains(cell.offset(at))), "{width} x {height}");
+    }
+}
+
+#[test]
 fn outside_nothing_is_set() {
     let mut plane = BitPlane::new(65, 2);
     for cell in [Cell::new(-1, 0), Cell::new(65, 0), Cell::new(0, 2), Cell::new(0, -1)] {

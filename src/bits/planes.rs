@@ -49,37 +49,49 @@ impl BitPlanes {
         }
     }
 
-    /// Takes in the words `words` of the rows `rows` of a grid of the size that was
-    /// packed last, and tells of each row that changed which of its words did: from the
-    /// first to one past the last.
+    /// Grows to a size; see [`BitPlane::grow`].
+    pub fn grow(&mut self, width: usize, height: usize, by: (usize, usize)) {
+        self.free.grow(width, height, by);
+        self.unknown.grow(width, height, by);
+    }
+
+    /// Takes in the words `words` of the rows `rows` of the planes, in which the first cell of a
+    /// grid lies at the column and row `corner`; beyond the grid no bit is set. Tells of each row
+    /// that changed which of its words did, from the first to one past the last, and whether
+    /// other cells of it are free.
     pub fn repack(
         &mut self,
         grid: &OccupancyGrid,
         thresholds: &Thresholds,
+        corner: (usize, usize),
         rows: Range<usize>,
         words: Range<usize>,
-        mut changed: impl FnMut(usize, Range<usize>),
+        mut changed: impl FnMut(usize, Range<usize>, bool),
     ) {
-        let width = grid.info().width();
+        let (width, height) = (grid.info().width(), grid.info().height());
         let classifier = Classifier::new(thresholds);
         self.row_free.resize(words.len(), 0);
         self.row_unknown.resize(words.len(), 0);
-        let columns = words.start * WORD_CELLS..width.min(words.end * WORD_CELLS);
+        let column = |word: usize| (word * WORD_CELLS).saturating_sub(corner.0).min(width);
+        let columns = column(words.start)..column(words.end);
+        let lead = corner.0.saturating_sub(words.start * WORD_CELLS);
+        let cells_of = |y: usize| {
+            let row = y.checked_sub(corner.1).filter(|&row| row < height)?;
+            grid.data().get(row * width + columns.start..row * width + columns.end)
+        };
         if columns.len() * rows.len() <= MOST_TOUCHED {
-            prefetch(rows.clone().filter_map(|y| grid.data().get(y * width + columns.start..y * width + columns.end)));
+            prefetch(rows.clone().filter_map(cells_of));
             for plane in [&self.free, &self.unknown] {
                 prefetch(rows.clone().map(|y| &plane.row(y)[words.clone()]));
             }
         }
         for y in rows {
-            let Some(cells) = grid.data().get(y * width..(y + 1) * width).and_then(|row| row.get(columns.clone()))
-            else {
-                return;
-            };
-            classifier.classify(cells, &mut self.row_free, &mut self.row_unknown);
+            let cells = cells_of(y).unwrap_or_default();
+            classifier.classify_behind(lead, cells, &mut self.row_free, &mut self.row_unknown);
             let free = &mut self.free.row_mut(y)[words.clone()];
             let unknown = &mut self.unknown.row_mut(y)[words.clone()];
-            if *free == self.row_free[..] && *unknown == self.row_unknown[..] {
+            let is_free_other = *free != self.row_free[..];
+            if !is_free_other && *unknown == self.row_unknown[..] {
                 continue;
             }
             let pairs = free.iter().zip(&self.row_free).zip(unknown.iter().zip(&self.row_unknown));
@@ -88,7 +100,7 @@ impl BitPlanes {
             let last = differ.rposition(|differs| differs).map_or(first, |after| first + 1 + after);
             free.copy_from_slice(&self.row_free);
             unknown.copy_from_slice(&self.row_unknown);
-            changed(y, words.start + first..words.start + last + 1);
+            changed(y, words.start + first..words.start + last + 1, is_free_other);
         }
     }
 

@@ -12,22 +12,33 @@ const REMEMBERED: usize = 64;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Changes {
     version: u64,
-    /// What each of the last versions changed, the newest last.
+    /// What each of the last versions changed, the newest last, by its columns and rows.
     recent: Arc<[CellRect]>,
+    /// The last version of which the map grew; 0 if none did.
+    grown: u64,
 }
 
 impl Changes {
     /// A version of which nothing earlier is known.
     #[must_use]
     pub fn beginning_at(version: u64) -> Self {
-        Self { version, recent: Arc::default() }
+        Self { version, recent: Arc::default(), grown: 0 }
     }
 
     /// The next version, of which only a rectangle differs.
     #[must_use]
     pub fn then(&self, changed: CellRect) -> Self {
         let kept = self.recent.iter().skip((self.recent.len() + 1).saturating_sub(REMEMBERED));
-        Self { version: self.version + 1, recent: kept.copied().chain([changed]).collect() }
+        Self { version: self.version + 1, recent: kept.copied().chain([changed]).collect(), ..*self }
+    }
+
+    /// The next version, a map that grew: by so many columns in front and rows below, and any
+    /// number behind and above. Of what was on the map before only a rectangle of the new map differs.
+    #[must_use]
+    pub fn then_grown(&self, (columns, rows): (usize, usize), changed: CellRect) -> Self {
+        let moved = |rect: &CellRect| CellRect { x: rect.x + columns, y: rect.y + rows, ..*rect };
+        let last = Self { recent: self.recent.iter().map(moved).collect(), ..*self };
+        Self { grown: self.version + 1, ..last.then(changed) }
     }
 
     /// The next version, of which all may differ: a map of another size or place.
@@ -53,6 +64,13 @@ impl Changes {
     /// Version 0 stands for a map that has none, of which nothing is known.
     #[must_use]
     pub fn since(&self, version: u64) -> Option<CellRect> {
+        if version < self.grown { None } else { self.since_grown(version) }
+    }
+
+    /// The same for whoever keeps what lies at the same place when a map grows: by the columns and
+    /// rows of the newest version, and only of cells that were on the map before.
+    #[must_use]
+    pub fn since_grown(&self, version: u64) -> Option<CellRect> {
         if version == 0 {
             return None;
         }
@@ -79,6 +97,15 @@ mod tests {
         assert_eq!(changes.since(5), Some(rect(3, 8)));
         assert_eq!((changes.since(4), changes.since(9)), (None, None), "before the beginning, and to come");
         assert_eq!(changes.then_all().since(8), None);
+    }
+
+    #[test]
+    fn what_changed_before_a_map_grew_is_named_by_its_new_columns() {
+        let changes = Changes::beginning_at(5).then(rect(3, 2)).then_grown((10, 0), rect(1, 0)).then(rect(20, 1));
+        assert_eq!(changes.since_grown(5), Some(rect(13, 8)));
+        assert_eq!(changes.since_grown(6), Some(rect(20, 1)));
+        assert_eq!([5, 6, 7].map(|version| changes.since(version)), [None, None, Some(rect(20, 1))]);
+        assert_eq!(changes.then_all().since_grown(8), None);
     }
 
     #[test]

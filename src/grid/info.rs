@@ -271,6 +271,15 @@ impl GridInfo {
         (same_size && same_axes && is_near(dx) && is_near(dy)).then(|| (dx.round() as i32, dy.round() as i32))
     }
 
+    /// The column and row of the first cell of another grid, all of whose cells are such of this one
+    /// too; `None` where one is not.
+    #[must_use]
+    pub fn corner_of(&self, other: &Self) -> Option<(usize, usize)> {
+        let (x, y) = self.offset_of(other)?;
+        let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
+        (x + other.width() <= self.width() && y + other.height() <= self.height()).then_some((x, y))
+    }
+
     /// A length in metres as a number of cells.
     #[must_use]
     pub fn cells(&self, length_m: f64) -> f64 {

@@ -126,13 +126,19 @@ impl<T: CellValues> Live<T> {
         self.changes.version()
     }
 
-    /// A whole state comes; it is compared with the last one here, and nowhere else.
+    /// A whole state comes; it is compared with the last one here, and nowhere else, as far as the
+    /// last one lies on it.
     pub fn replace(&mut self, next: Arc<T>) {
         if next.info() == self.newest.info() {
             let changed = changed_rect(&*self.newest, &*next).unwrap_or_default();
             self.changes = self.changes.then(changed);
             let last = std::mem::replace(&mut self.newest, next);
             self.retire(self.version() - 1, last);
+        } else if let Some(corner) = next.info().corner_of(self.newest.info()) {
+            let changed = changed_from(&*self.newest, &*next, corner).unwrap_or_default();
+            self.changes = self.changes.then_grown(corner, changed);
+            self.newest = next;
+            self.spares.clear();
         } else {
             self.replace_unlike(next);
         }
@@ -191,13 +197,19 @@ impl<T: CellValues> Live<T> {
 /// The smallest rectangle that holds all cells in which two states of one size differ; `None`
 /// where they are equal.
 pub fn changed_rect<T: CellValues>(old: &T, new: &T) -> Option<CellRect> {
-    let width = new.info().width();
-    let rows = new.values().chunks_exact(width).zip(old.values().chunks_exact(width)).enumerate();
+    changed_from(old, new, (0, 0))
+}
+
+/// The same of a new state that holds all of the old one, whose first cell has this column and row.
+fn changed_from<T: CellValues>(old: &T, new: &T, (column, row): (usize, usize)) -> Option<CellRect> {
+    let (width, old_width) = (new.info().width(), old.info().width());
+    let rows = new.values().chunks_exact(width).enumerate().skip(row).zip(old.values().chunks_exact(old_width));
     let differs = |(a, b): (&T::Value, &T::Value)| a != b;
-    let changed = rows.filter(|(_, (new, old))| new != old).filter_map(|(y, (new, old))| {
+    let rows = rows.map(|((y, new), old)| (y, &new[column..column + old_width], old));
+    let changed = rows.filter(|(_, new, old)| new != old).filter_map(|(y, new, old)| {
         let cells = || new.iter().zip(old);
-        let (x, last) = (cells().position(differs)?, cells().rposition(differs)?);
-        Some(CellRect { x, y, width: last + 1 - x, height: 1 })
+        let (first, last) = (cells().position(differs)?, cells().rposition(differs)?);
+        Some(CellRect { x: column + first, y, width: last + 1 - first, height: 1 })
     });
     changed.reduce(CellRect::union)
 }
@@ -266,5 +278,19 @@ mod tests {
         let larger = GridInfo::new(10, 7, 1.0, Pose::default()).unwrap();
         live.replace(Arc::new(OccupancyGrid::filled(larger, 0)));
         assert_eq!((live.version(), live.changes().since(2)), (3, None));
+    }
+
+    #[test]
+    fn a_state_that_grew_is_compared_where_the_last_one_was() {
+        let mut live = Live::new(Arc::new(grid()));
+        let info = GridInfo::new(20, 15, 1.0, Pose::new(-3.0, -2.0, 0.0)).unwrap();
+        let mut next = OccupancyGrid::filled(info, 0);
+        (0..63).for_each(|index| next.set(grid().info().cell(index).offset((3, 2)), -1));
+        next.set(Cell::new(11, 8), 100);
+        live.replace(Arc::new(next.clone()));
+        let changed = CellRect { x: 11, y: 8, width: 1, height: 1 };
+        assert_eq!((live.changes().since(1), live.changes().since_grown(1)), (None, Some(changed)));
+        live.replace(Arc::new(grid()));
+        assert_eq!(live.changes().since_grown(2), None, "a map that was cut");
     }
 }

@@ -52,6 +52,18 @@ impl Joins {
         self.next = (std::mem::replace(&mut self.pairs, pairs), std::mem::replace(&mut self.ends, ends));
     }
 
+    /// Puts the lists in another order: each becomes the one named, or empty.
+    pub fn rearrange(&mut self, origins: impl Iterator<Item = Option<usize>>) {
+        let (mut pairs, mut ends) = std::mem::take(&mut self.next);
+        pairs.clear();
+        ends.clear();
+        for origin in origins {
+            pairs.extend_from_slice(origin.map_or(&[], |origin| self.list(origin)));
+            ends.push(pairs.len() as u32);
+        }
+        self.next = (std::mem::replace(&mut self.pairs, pairs), std::mem::replace(&mut self.ends, ends));
+    }
+
     /// Where a list starts, or the last ends.
     fn start(&self, index: usize) -> u32 {
         if index > 0 { self.ends[index - 1] } else { 0 }
@@ -77,5 +89,8 @@ mod tests {
         assert_eq!([joins.list(0).len(), joins.list(1).len(), joins.list(2).len()], [0, 1, 2]);
         joins.rebuild(|index| index == 1, |_, pairs| pairs.push([5, 6]));
         assert_eq!((joins.list(1), joins.list(2)), (&[[5, 6]][..], &[[0, 7], [1, 7]][..]));
+        joins.rearrange([Some(2), None, Some(1), Some(0)].into_iter());
+        let lists = [0, 1, 2, 3].map(|index| joins.list(index));
+        assert_eq!(lists, [&[[0, 7], [1, 7]][..], &[], &[[5, 6]], &[]]);
     }
 }

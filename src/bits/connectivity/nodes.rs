@@ -22,6 +22,8 @@ pub(crate) struct Nodes {
     within_before: Vec<u32>,
     /// Of each node one that it is connected to and that is not after it.
     parents: Vec<u32>,
+    /// The blocks are others than at the last update.
+    has_other_blocks: bool,
 }
 
 /// The tiles as far as their nodes are concerned.
@@ -60,16 +62,23 @@ impl Nodes {
         self.first.resize(tiles + 1, 0);
     }
 
+    /// Puts the tiles in another order, in which they have so many nodes.
+    pub fn rearrange(&mut self, counts: &[u16]) {
+        self.count(counts);
+        self.has_other_blocks = true;
+    }
+
     /// Finds again which nodes are connected. The tiles that changed since the last time have
     /// other nodes, or other tiles beside them.
     pub fn connect(&mut self, counts: &[u16], tiles: Tiles<'_>, changed: &[bool]) {
         self.count(counts);
-        let Self { first, first_before, within, within_before, parents } = self;
+        let has_other_blocks = std::mem::take(&mut self.has_other_blocks);
+        let Self { first, first_before, within, within_before, parents, .. } = self;
         std::mem::swap(within, within_before);
         within.clear();
         for block in tiles.tiling.blocks() {
             let (base, end) = (first[block.start], first[block.end]);
-            if changed[block.clone()].contains(&true) {
+            if has_other_blocks || changed[block.clone()].contains(&true) {
                 within.extend(0..end - base);
                 let within = &mut within[base as usize..];
                 for tile in block.clone() {

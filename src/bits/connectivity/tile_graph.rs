@@ -3,7 +3,7 @@
 use super::label_cache::LabelCache;
 use super::nodes::{Nodes, Tiles};
 use crate::bits::connectivity::joins::Joins;
-use crate::bits::connectivity::tiling::{Tile, Tiling};
+use crate::bits::connectivity::tiling::{TILE_ROWS, TILE_WORDS, Tile, Tiling};
 use crate::bits::word_spans::WordSpans;
 use crate::bits::{BitPlane, prefetch};
 use crate::grid::{Cell, Neighbourhood};
@@ -90,6 +90,27 @@ impl TileGraph {
         self.has_inner.resize(count, false);
         self.nodes.reset(count);
         self.written.clear();
+    }
+
+    /// Goes on with planes that have grown by so many columns and rows of tiles in front and below,
+    /// and in all to a size; see [`BitPlane::grow`].
+    pub fn grow(&mut self, width: usize, height: usize, (columns, rows): (usize, usize)) {
+        self.plane.grow(width, height, (columns * TILE_WORDS, rows * TILE_ROWS));
+        let tiling = Tiling::new(self.plane.row_words(), height);
+        let before = std::mem::replace(&mut self.tiling, tiling);
+        let origins: Vec<Option<usize>> = tiling.origins(before, (columns, rows)).collect();
+        self.changed.reset(self.plane.row_words(), height);
+        self.labelled.reset(&tiling);
+        self.joins.rearrange(origins.iter().flat_map(|o| [o.map(|tile| 2 * tile), o.map(|tile| 2 * tile + 1)]));
+        let nodes_of = |origin: &Option<usize>| origin.map_or(0..0, |tile| self.nodes.of(&(tile..tile + 1)));
+        self.written = origins.iter().flat_map(nodes_of).map(|node| self.written[node]).collect();
+        self.node_counts = origins.iter().map(|origin| nodes_of(origin).len() as u16).collect();
+        self.nodes.rearrange(&self.node_counts);
+        let mut tiles = std::mem::take(&mut self.tiles);
+        let tile_of = |origin: &Option<usize>| origin.map(|tile| std::mem::take(&mut tiles[tile])).unwrap_or_default();
+        self.tiles = origins.iter().map(tile_of).collect();
+        self.dirty = origins.iter().map(|origin| origin.is_none_or(|tile| self.dirty[tile])).collect();
+        self.has_inner = origins.iter().map(|origin| origin.is_some_and(|tile| self.has_inner[tile])).collect();
     }
 
     /// Finds what is connected to a seed in a plane of which nothing is known. Only the buffers

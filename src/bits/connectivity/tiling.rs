@@ -15,9 +15,9 @@ use crate::grid::Neighbourhood;
 use std::ops::Range;
 
 /// Words in a row of a tile.
-const TILE_WORDS: usize = 4;
+pub(crate) const TILE_WORDS: usize = 4;
 /// Rows of a tile.
-const TILE_ROWS: usize = 64;
+pub(crate) const TILE_ROWS: usize = 64;
 /// Rows of tiles in a block; the planes of the tests are small.
 const BLOCK_ROWS: usize = if cfg!(test) { 2 } else { 4 };
 /// No node: the cell is not set, or its component does not touch the rim.
@@ -78,6 +78,18 @@ impl Tiling {
     pub fn blocks(self) -> impl Iterator<Item = Range<usize>> {
         let tiles = BLOCK_ROWS * self.columns;
         (0..self.len()).step_by(tiles.max(1)).map(move |start| start..(start + tiles).min(self.len()))
+    }
+
+    /// Of each tile the one of an earlier tiling that it is, now so many columns and rows of tiles
+    /// further on; none where there was none, or one that the end of the plane cut shorter.
+    pub fn origins(self, before: Self, (columns, rows): (usize, usize)) -> impl Iterator<Item = Option<usize>> {
+        let size = |window: Window| (window.rows.len(), window.words.len());
+        (0..self.len()).map(move |tile| {
+            let column = (tile % self.columns).checked_sub(columns).filter(|&column| column < before.columns)?;
+            let row = (tile / self.columns).checked_sub(rows).filter(|&row| row < before.rows)?;
+            let origin = row * before.columns + column;
+            (size(before.window(origin)) == size(self.window(tile))).then_some(origin)
+        })
     }
 
     /// The tiles of a block that lie beside the next.

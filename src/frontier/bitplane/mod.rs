@@ -1,9 +1,10 @@
-//! The wavefront's frontiers at the speed of memory: all from scratch on a first or resized map,
-//! or where the robot reaches little of it, and repaired where the map changed on the next ones.
+//! The wavefront's frontiers at the speed of memory: all from scratch on a first map, or where the
+//! robot reaches little of it, and repaired where the map changed or grew on the next ones.
 //!
 //! Both engines give what [`Wavefront`](super::Wavefront) gives, to the cell and in the same
 //! order, so that it is a question of time alone which of them is asked.
 
+mod find_cells;
 mod from_scratch;
 mod lazy_fill;
 mod repair;
@@ -13,7 +14,8 @@ pub use repair::Repair;
 
 use super::FrontierCells;
 use super::{DetectError, DetectionInput, DetectorParams, Frontier, FrontierDetector};
-use crate::grid::Neighbourhood;
+use crate::bits::placement::moved;
+use crate::grid::{GridInfo, Neighbourhood};
 use std::sync::Arc;
 
 /// The detector: both engines, with what they keep from map to map.
@@ -40,8 +42,8 @@ use std::sync::Arc;
 pub struct Bitplane {
     from_scratch: FromScratch,
     repair: Repair,
-    /// Columns and rows of the last map.
-    size: Option<(usize, usize)>,
+    /// Size and place of the last map.
+    last: Option<GridInfo>,
     /// The version of the map that the second engine knows.
     known: Option<u64>,
 }
@@ -58,7 +60,7 @@ impl Bitplane {
         Self {
             from_scratch: FromScratch::with_grouping(params, grouping),
             repair: Repair::with_grouping(params, grouping),
-            size: None,
+            last: None,
             known: None,
         }
     }
@@ -79,12 +81,13 @@ impl Bitplane {
     }
 
     fn detect_shared(&mut self, input: &DetectionInput<'_>) -> Result<&Arc<FrontierCells>, DetectError> {
-        let size = (input.grid.info().width(), input.grid.info().height());
+        let info = input.grid.info();
+        let follows = self.last.replace(*info).is_some_and(|last| moved(&last, info).is_some());
         // A fill that meets little of the map is faster than to repair all of it.
-        if self.size.replace(size) != Some(size) || self.from_scratch.was_lazy() {
+        if !follows || self.from_scratch.was_lazy() {
             return self.from_scratch.detect_shared(input);
         }
-        let changed = self.known.zip(input.changes).and_then(|(known, changes)| changes.since(known));
+        let changed = self.known.zip(input.changes).and_then(|(known, changes)| changes.since_grown(known));
         self.known = input.changes.map(crate::grid::Changes::version);
         self.repair.update_shared(input, changed)
     }
@@ -100,7 +103,7 @@ impl FrontierDetector for Bitplane {
     }
 
     fn forget(&mut self) {
-        self.size = None;
+        self.last = None;
     }
 }
 
@@ -117,7 +120,7 @@ mod tests {
         #[test]
         fn whatever_comes_is_as_if_detected_from_scratch(
             first in noise(90, 40),
-            steps in proptest::collection::vec((0usize..4, 0usize..60, 0usize..30, any::<i8>(), any::<bool>()), 1..12),
+            steps in proptest::collection::vec((0usize..6, 0usize..60, 0usize..30, any::<i8>(), any::<bool>()), 1..12),
         ) {
             let params = DetectorParams::default();
             let mut detector = Bitplane::new(params);
@@ -132,6 +135,18 @@ mod tests {
                         map.replace(Arc::new(OccupancyGrid::filled(info, 0)));
                     }
                     1 => {
+                        let corner = info.from_grid_units(-(x as f64), -(y as f64));
+                        let (width, height) = (info.width() + x + y, info.height() + y);
+                        let origin = Pose::new(corner.x, corner.y, 0.0);
+                        let larger = GridInfo::new(width as u32, height as u32, 1.0, origin).unwrap();
+                        let mut next = OccupancyGrid::filled(larger, value);
+                        for index in 0..info.len() {
+                            next.set(info.cell(index).offset((x as i32, y as i32)), map.newest().data()[index]);
+                        }
+                        next.set(Cell::new(2 * x as i32, 2 * y as i32), value);
+                        map.replace(Arc::new(next));
+                    }
+                    2 => {
                         let mut next = OccupancyGrid::clone(map.newest());
                         next.set(Cell::new(x as i32, y as i32), value);
                         map.replace(Arc::new(next));

@@ -7,18 +7,21 @@
 //! cells where reach or territory changed, and the groups that had a cell there.
 //!
 //! O(cells compared + tiles + what changed + cells of all frontiers), the last with the
-//! constant of a copy. A map of another size starts over.
+//! constant of a copy. A map that grew or shrank by whole cells, on whichever sides, keeps what lies
+//! at the same place ([`placement`](crate::bits::placement)); any other one of another size starts over.
 
+mod take_in;
+
+use super::find_cells::FindCells;
 use crate::bits::connectivity::tile_graph::TileGraph;
-use crate::bits::neighbours::neighbours_of_row;
-use crate::bits::word_spans::{WordSpan, WordSpans};
-use crate::bits::{BitPlane, BitPlanes, BitWork, prefetch, with_bit_instructions, words_of};
+use crate::bits::placement::Placement;
+use crate::bits::word_spans::WordSpans;
+use crate::bits::{BitPlane, BitPlanes, prefetch, with_bit_instructions};
 use crate::frontier::grouping::cell_lists::FrontierCells;
 use crate::frontier::grouping::clusters::Clusters;
 use crate::frontier::grouping::repair::Regroup;
 use crate::frontier::{DetectError, DetectionInput, DetectorParams, Reachability};
 use crate::grid::{Cell, CellRect, GridInfo, Neighbourhood};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// The detector, with what it knows of the last map.
@@ -44,6 +47,8 @@ pub struct Repair {
     params: DetectorParams,
     /// By what frontier cells are of one frontier.
     grouping: Neighbourhood,
+    /// Where the last map lies in the planes.
+    placed: Option<Placement>,
     planes: BitPlanes,
     /// By the textbook: the cells that the search could walk on.
     open: BitPlane,
@@ -77,6 +82,7 @@ impl Repair {
         Self {
             params,
             grouping,
+            placed: None,
             planes: BitPlanes::default(),
             open: BitPlane::default(),
             reach: TileGraph::new(params.search_neighbours()),
@@ -95,8 +101,9 @@ impl Repair {
 
     /// Detects on a map of which at most the cells of a rectangle are others than at the
     /// last call, as after a `map_msgs/OccupancyGridUpdate`; `None` if that is not known.
-    /// A change that is not in the rectangle is not seen. Nothing is allocated once the
-    /// buffers have grown to what such maps need.
+    /// A change that is not in the rectangle is not seen, unless the cell was not on the last map:
+    /// a map that grew by whole cells may come with nothing told but what changed of the old part.
+    /// Nothing is allocated once the buffers have grown to what such maps need.
     ///
     /// # Errors
     /// [`DetectError`] when the question has no answer on this map; its changes are
@@ -115,9 +122,9 @@ impl Repair {
         changed: Option<CellRect>,
     ) -> Result<&Arc<FrontierCells>, DetectError> {
         let info = input.grid.info();
-        self.take_in(input, changed);
+        let placement = self.take_in(input, changed);
         let seed = self.params.seed(input.grid, &input.robot_in_map)?;
-        self.find_seeds(seed, info);
+        self.find_seeds(seed, info, &placement);
         let plane = match self.params.reachability {
             Reachability::WallsBlock => self.planes.free(),
             Reachability::Textbook => &self.open,
@@ -126,11 +133,14 @@ impl Repair {
         self.find_frontier_cells();
         let min_cells = self.params.min_cells(info);
         let (frontier, neighbours) = (&mut self.frontier, self.grouping);
-        let repaired = self.min_cells == Some(min_cells)
-            && self.groups.update(frontier, &self.regroup, neighbours, min_cells, Arc::make_mut(&mut self.found));
+        let repaired = self.min_cells == Some(min_cells) && {
+            let (changed, found) = (&self.regroup, Arc::make_mut(&mut self.found));
+            self.groups.update(frontier, changed, placement.offset(), neighbours, min_cells, found)
+        };
         if !repaired {
             let found = FrontierCells::anew(&mut self.found);
             self.clusters.collect(frontier, neighbours, min_cells, found);
+            found.shift(placement.offset_in_map());
             self.min_cells = Some(min_cells);
         }
         self.regroup.clear();
@@ -152,76 +162,14 @@ impl Repair {
             + self.seeds.capacity() * size_of::<Cell>()
     }
 
-    /// Packs what changed and tells those whom it concerns.
-    fn take_in(&mut self, input: &DetectionInput<'_>, changed: Option<CellRect>) {
-        let info = input.grid.info();
-        self.changed.clear();
-        if (self.planes.free().width(), self.planes.free().height()) != (info.width(), info.height()) {
-            self.start_over(info);
-            self.planes.pack(input.grid, &self.params.thresholds);
-            if self.params.reachability == Reachability::Textbook {
-                (0..info.height()).for_each(|y| self.open_row(y, 0..self.planes.free().row_words()));
-            }
-            return;
-        }
-        let rect = changed.unwrap_or_else(|| CellRect::of(info));
-        let Self { changed, params, planes, .. } = self;
-        planes.repack(input.grid, &params.thresholds, rect.rows(info), words_of(&rect, info), |y, words| {
-            changed.add(y, WordSpan::of(&words));
-        });
-        for y in self.changed.rows() {
-            let span = self.changed.of_row(y);
-            self.stale.add(y, span);
-            match self.params.reachability {
-                Reachability::WallsBlock => span.words().for_each(|word| self.reach.mark_dirty(y, word)),
-                Reachability::Textbook if span.is_empty() => {}
-                Reachability::Textbook => {
-                    let Range { start, end } = span.words();
-                    let words = start.saturating_sub(1)..(end + 1).min(self.open.row_words());
-                    for y in y.saturating_sub(1)..(y + 2).min(info.height()) {
-                        self.open_row(y, words.clone());
-                    }
-                }
-            }
-        }
-    }
-
-    fn start_over(&mut self, info: &GridInfo) {
-        let (width, height) = (info.width(), info.height());
-        self.planes.resize(info);
-        self.frontier.resize(width, height);
-        if self.params.reachability == Reachability::Textbook {
-            self.open.resize(width, height);
-        }
-        self.reach.reset(width, height);
-        for spans in [&mut self.changed, &mut self.stale, &mut self.regroup] {
-            spans.reset(self.frontier.row_words(), height);
-        }
-        self.stale.add_all();
-        self.row.resize(self.frontier.row_words(), 0);
-        self.min_cells = None;
-    }
-
-    /// Finds again which cells of a row have a free neighbour.
-    fn open_row(&mut self, y: usize, words: Range<usize>) {
-        let row = &mut self.row[words.clone()];
-        neighbours_of_row(self.planes.free(), self.params.neighbours, y, words.clone(), row);
-        let open = self.open.row_mut(y);
-        for (word, &new) in words.zip(&*row) {
-            if open[word] != new {
-                open[word] = new;
-                self.reach.mark_dirty(y, word);
-            }
-        }
-    }
-
-    /// The cells from which the search sets out. By the textbook that is the seed, which
-    /// it enters whatever stands around it, and so its neighbours too.
-    fn find_seeds(&mut self, seed: Cell, info: &GridInfo) {
+    /// The cells of the planes from which the search sets out. By the textbook that is the seed,
+    /// which it enters whatever stands around it, and so its neighbours too.
+    fn find_seeds(&mut self, seed: Cell, info: &GridInfo, placement: &Placement) {
+        let in_planes = |cell: Cell| cell.offset(placement.offset());
         self.seeds.clear();
-        self.seeds.push(seed);
-        if self.params.reachability == Reachability::Textbook && !self.open.contains(seed) {
-            self.seeds.extend(info.neighbours(seed, self.params.neighbours));
+        self.seeds.push(in_planes(seed));
+        if self.params.reachability == Reachability::Textbook && !self.open.contains(in_planes(seed)) {
+            self.seeds.extend(info.neighbours(seed, self.params.neighbours).map(in_planes));
         }
     }
 
@@ -245,47 +193,6 @@ impl Repair {
         }
         with_bit_instructions(FindCells { reached, unknown, beside, stale, row, frontier, regroup });
         self.stale.clear();
-    }
-}
-
-/// Finds the frontier cells of words: the unknown ones that are reached, or beside what is.
-/// Notes the words in which they are others than before.
-struct FindCells<'a> {
-    reached: &'a BitPlane,
-    unknown: &'a BitPlane,
-    beside: Option<Neighbourhood>,
-    stale: &'a WordSpans,
-    /// Room for a row.
-    row: &'a mut [u64],
-    frontier: &'a mut BitPlane,
-    regroup: &'a mut WordSpans,
-}
-
-impl BitWork for FindCells<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { reached, unknown, beside, stale, row, frontier, regroup } = self;
-        for (y, span) in stale.iter() {
-            let words = span.words();
-            let row = &mut row[words.clone()];
-            match beside {
-                Some(neighbours) => neighbours_of_row(reached, neighbours, y, words.clone(), row),
-                None => row.copy_from_slice(&reached.row(y)[words.clone()]),
-            }
-            let unknown = &unknown.row(y)[words.clone()];
-            let known = &mut frontier.row_mut(y)[words.clone()];
-            let mut differ = WordSpan::NONE;
-            for (i, (known, (row, unknown))) in words.zip(known.iter_mut().zip(row.iter().zip(unknown))) {
-                let found = row & unknown;
-                if *known != found {
-                    *known = found;
-                    differ.join(WordSpan::of(&(i..i + 1)));
-                }
-            }
-            regroup.add(y, differ);
-        }
     }
 }
 

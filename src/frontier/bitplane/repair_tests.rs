@@ -16,8 +16,9 @@ enum Change {
     Noise { rect: CellRect, seed: u32 },
     /// Nothing changes but the robot's place.
     Move,
-    /// The map grows to all sides.
-    Grow { left: u32, low: u32, right: u32, high: u32 },
+    /// The map grows on the sides where this is not negative, and is cut on the others; then a
+    /// rectangle is filled.
+    Reframe { left: i32, low: i32, right: i32, high: i32, rect: CellRect, value: i8 },
     /// The map is another, of another resolution.
     Rescale { resolution_m: f64 },
 }
@@ -39,14 +40,30 @@ fn rect() -> impl Strategy<Value = CellRect> {
     prop_oneof![anywhere, at_seams].prop_map(|(x, y, width, height)| CellRect { x, y, width, height })
 }
 
+/// By how much a side grows: not at all, a little, across tiles, or less than nothing.
+fn side() -> impl Strategy<Value = i32> {
+    prop_oneof![4 => Just(0), 2 => 1i32..=300, 1 => 1i32..70, 1 => (1i32..5).prop_map(|words| 64 * words), 1 => -90i32..0]
+}
+
+fn reframe() -> impl Strategy<Value = Change> {
+    let value = prop_oneof![Just(0i8), Just(100i8), Just(-1i8)];
+    (side(), side(), side(), side(), rect(), value).prop_map(|(left, low, right, high, rect, value)| Change::Reframe {
+        left,
+        low,
+        right,
+        high,
+        rect,
+        value,
+    })
+}
+
 fn change() -> impl Strategy<Value = Change> {
     let value = prop_oneof![Just(0i8), Just(0i8), Just(100i8), Just(-1i8)];
     prop_oneof![
         6 => (rect(), value, any::<bool>()).prop_map(|(rect, value, walled)| Change::Fill { rect, value, walled }),
         3 => (rect(), any::<u32>()).prop_map(|(rect, seed)| Change::Noise { rect, seed }),
         1 => Just(Change::Move),
-        1 => (0u32..80, 0u32..30, 0u32..80, 0u32..30)
-            .prop_map(|(left, low, right, high)| Change::Grow { left, low, right, high }),
+        3 => reframe(),
         1 => (0.5f64..3.0).prop_map(|resolution_m| Change::Rescale { resolution_m }),
     ]
 }
@@ -74,17 +91,18 @@ fn apply(grid: &mut OccupancyGrid, change: &Change) -> Option<CellRect> {
             Some(rect)
         }
         Change::Move => Some(CellRect { x: 0, y: 0, width: 0, height: 0 }),
-        Change::Grow { left, low, right, high } => {
-            let old = grid.info();
-            let (width, height) = (old.width() as u32 + left + right, old.height() as u32 + low + high);
+        Change::Reframe { left, low, right, high, rect, value } => {
+            let old = *grid.info();
+            let length = |old: usize, more: i32| (old as i32 + more).max(1) as u32;
+            let (width, height) = (length(old.width(), left + right), length(old.height(), low + high));
             let corner = old.from_grid_units(-f64::from(left), -f64::from(low));
             let info = GridInfo::new(width, height, old.resolution_m(), Pose::new(corner.x, corner.y, 0.0)).unwrap();
-            let mut larger = OccupancyGrid::filled(info, -1);
+            let mut next = OccupancyGrid::filled(info, if (left + low) % 3 == 0 { 100 } else { -1 });
             for index in 0..old.len() {
-                larger.set(old.cell(index).offset((left as i32, low as i32)), grid.data()[index]);
+                next.set(old.cell(index).offset((left, low)), grid.data()[index]);
             }
-            *grid = larger;
-            None
+            *grid = next;
+            apply(grid, &Change::Fill { rect, value, walled: false })
         }
         Change::Rescale { resolution_m } => {
             let old = *grid.info();
@@ -97,7 +115,7 @@ fn apply(grid: &mut OccupancyGrid, change: &Change) -> Option<CellRect> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(512))]
+    #![proptest_config(ProptestConfig::with_cases(1024))]
 
     #[test]
     fn each_update_gives_what_detection_from_scratch_gives(
@@ -148,4 +166,27 @@ fn what_changed_while_there_was_no_answer_is_not_forgotten() {
     let input = DetectionInput::new(&grid, at(15.0));
     let found = Frontier::all_of(&Arc::new(kept.update(&input, nothing).unwrap().clone()));
     assert_eq!(Ok(found), FromScratch::new(params).detect(&input));
+}
+
+#[test]
+fn a_map_that_grows_is_looked_at_where_it_is_new_alone() {
+    let params = DetectorParams::default();
+    let mut grid = OccupancyGrid::filled(GridInfo::new(500, 150, 1.0, Pose::default()).unwrap(), 0);
+    let mut kept = Repair::new(params);
+    let robot = Pose::new(200.5, 50.5, 0.0);
+    assert_eq!(kept.update(&DetectionInput::new(&grid, robot), None).unwrap().len(), 0);
+    for (left, low, right, high) in [(4, 0, 0, 0), (0, 70, 0, 0), (301, 0, 5, 2), (1, 1, 300, 100), (41, 20, 0, 0)] {
+        // An unknown cell within the first map, of which nothing is told at first.
+        let unseen = Cell::new(400, 100);
+        let rect = CellRect { x: 400, y: 100, width: 1, height: 1 };
+        let _ = apply(&mut grid, &Change::Reframe { left, low, right, high, rect, value: -1 });
+        let input = DetectionInput::new(&grid, robot);
+        let told = kept.update(&input, Some(CellRect::default())).unwrap();
+        assert!(!told.is_empty() && told.iter().flatten().all(|&cell| cell != unseen));
+        let told = Frontier::all_of(&Arc::new(kept.update(&input, Some(rect)).unwrap().clone()));
+        assert!(told.iter().any(|frontier| *frontier.cells == [unseen]));
+        assert_eq!(Ok(told), FromScratch::new(params).detect(&input));
+        grid.set(unseen, 0);
+        assert!(kept.update(&DetectionInput::new(&grid, robot), Some(rect)).is_ok());
+    }
 }

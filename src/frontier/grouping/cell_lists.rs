@@ -57,6 +57,13 @@ impl FrontierCells {
         self.cells.capacity() * size_of::<Cell>() + self.ends.capacity() * size_of::<u32>()
     }
 
+    /// Names all cells by the columns and rows of another grid, in which they lie so far on.
+    pub(crate) fn shift(&mut self, by: (i32, i32)) {
+        if by != (0, 0) {
+            self.cells.iter_mut().for_each(|cell| *cell = cell.offset(by));
+        }
+    }
+
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
         self.cells.clear();

@@ -36,11 +36,13 @@ pub(crate) struct Regroup {
 impl Regroup {
     /// Finds again the frontiers that have a cell in a word that changed or touch one that
     /// has; the others are kept. `false`, and nothing done, if these are so many that to
-    /// find all anew is as good. Of the plane nothing is changed in the end.
+    /// find all anew is as good. Cells of the lists lie `offset` further on in the plane, of which
+    /// nothing is changed in the end.
     pub fn update(
         &mut self,
         plane: &mut BitPlane,
         changed: &WordSpans,
+        offset: (i32, i32),
         neighbourhood: Neighbourhood,
         min_cells: usize,
         found: &mut FrontierCells,
@@ -50,14 +52,14 @@ impl Regroup {
         self.ends.clear();
         let eight = neighbourhood == Neighbourhood::Eight;
         let Self { pieces, ends, .. } = self;
-        let takes = Takes { plane, changed, eight, found, pieces, ends, left: most_cells };
+        let takes = Takes { plane, changed, offset, eight, found, pieces, ends, left: most_cells };
         let done = with_bit_instructions(takes).is_some();
         if done {
             self.splice.forget();
             // Dropped are those whose cells are out of the plane: some of those that have a
             // cell within or beside the rows that changed.
-            for index in near(changed, found) {
-                if found.frontier(index).first().is_none_or(|&cell| !plane.contains(cell)) {
+            for index in near(changed, offset, found) {
+                if found.frontier(index).first().is_none_or(|cell| !plane.contains(cell.offset(offset))) {
                     self.splice.drop(index);
                 }
             }
@@ -66,7 +68,7 @@ impl Regroup {
             plane.row_mut(y as usize)[word as usize] |= cells;
         }
         if done {
-            self.list(min_cells);
+            self.list(offset, min_cells);
             let cells_of = |&[start, end]: &[u32; 2]| &self.cells[start as usize..end as usize];
             found.splice(&mut self.splice, self.frontiers.iter().map(cells_of));
         }
@@ -74,7 +76,7 @@ impl Regroup {
     }
 
     /// Lists the cells of the frontiers that have enough of them, in the order of first cells.
-    fn list(&mut self, min_cells: usize) {
+    fn list(&mut self, offset: (i32, i32), min_cells: usize) {
         let Self { pieces, ends, cells, frontiers, .. } = self;
         cells.clear();
         frontiers.clear();
@@ -89,7 +91,7 @@ impl Regroup {
                 let mut left = of_word.iter().fold(0, |all, piece| all | piece.cells);
                 while left != 0 {
                     let x = word * WORD_CELLS as u32 + left.trailing_zeros();
-                    cells.push(Cell::new(x as i32, y as i32));
+                    cells.push(Cell::new(x as i32 - offset.0, y as i32 - offset.1));
                     left &= left - 1;
                 }
             }
@@ -113,9 +115,9 @@ impl Regroup {
 }
 
 /// The frontiers that have a cell in the rows that changed or in one beside them.
-fn near(changed: &WordSpans, found: &FrontierCells) -> impl Iterator<Item = usize> {
+fn near(changed: &WordSpans, offset: (i32, i32), found: &FrontierCells) -> impl Iterator<Item = usize> {
     let rows = changed.rows();
-    let (low, high) = (rows.start as i32 - 1, rows.end as i32);
+    let (low, high) = (rows.start as i32 - 1 - offset.1, rows.end as i32 - offset.1);
     // They are in the order of first cells, and their cells in that of rows.
     let begun = if rows.is_empty() { 0 } else { found.count_before(Cell::new(0, high + 1)) };
     (0..begun).filter(move |&index| found.frontier(index).last().is_some_and(|last| last.y >= low))
@@ -125,6 +127,8 @@ fn near(changed: &WordSpans, found: &FrontierCells) -> impl Iterator<Item = usiz
 struct Takes<'a> {
     plane: &'a mut BitPlane,
     changed: &'a WordSpans,
+    /// By how much the cells of the lists lie further on in the plane.
+    offset: (i32, i32),
     eight: bool,
     found: &'a FrontierCells,
     pieces: &'a mut Vec<WordCells>,
@@ -146,11 +150,12 @@ impl BitWork for Takes<'_> {
             }
         }
         // What is left of the frontiers that lost a cell.
-        let (found, changed) = (self.found, self.changed);
-        let is_changed = |cell: &Cell| changed.contain(cell.y as usize, cell.x as usize / WORD_CELLS);
-        for cells in near(changed, found).map(|index| found.frontier(index)) {
-            if cells.iter().any(is_changed) {
-                for &Cell { x, y } in cells {
+        let (found, changed, offset) = (self.found, self.changed, self.offset);
+        let in_plane = |cell: &Cell| cell.offset(offset);
+        let is_changed = |cell: Cell| changed.contain(cell.y as usize, cell.x as usize / WORD_CELLS);
+        for cells in near(changed, offset, found).map(|index| found.frontier(index)) {
+            if cells.iter().map(in_plane).any(is_changed) {
+                for Cell { x, y } in cells.iter().map(in_plane) {
                     let (y, word, bit) = (y as usize, x as usize / WORD_CELLS, 1 << (x as usize % WORD_CELLS));
                     if self.plane.row(y)[word] & bit != 0 {
                         self.take_connected(y, word, bit)?;
