@@ -1,4 +1,9 @@
-//! One sweep of a planar lidar, with the fields of `sensor_msgs/LaserScan` (floor 0).
+//! One sweep of a planar lidar, with the fields of `sensor_msgs/LaserScan`, and what such a lidar
+//! can see (floor 0).
+
+mod sight;
+
+pub use sight::Sight;
 
 use crate::geometry::{Point, Pose};
 

@@ -250,6 +250,28 @@ fn the_table_of_liang_stands_beside_ours() {
 }
 
 #[test]
+fn presets_are_measured_by_one_of_them() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.json"), synthetic(&[("a", 110.0), ("b", 210.0)]).to_string()).unwrap();
+    let print = |name: &str| {
+        let args = ["compare", "--merge", "a.json", "--against", name];
+        frontier(folder.path()).args(args).output().unwrap()
+    };
+    let told = String::from_utf8(print("b").stdout).unwrap();
+    let table = told.split("Measured by b:").nth(1).unwrap();
+    let row = |preset: &str| {
+        let line = table.lines().find(|line| line.trim_start().starts_with(preset)).unwrap();
+        line.split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+    };
+    // T99 of 100 and 200 s; nobody reached 95 % according to this file.
+    assert_eq!(row("a ")[1..6], ["0.52", "inf", "0.50", "0.52", "0.50"]);
+    assert_eq!((row("a ").last().unwrap().as_str(), row("b ").last().unwrap().as_str()), ("1/1", "0/1"));
+    let unknown = print("c");
+    let error = String::from_utf8(unknown.stderr).unwrap();
+    assert!(unknown.status.code() == Some(1) && error.contains("must be one of a, b"), "{error}");
+}
+
+#[test]
 fn bad_input_is_answered_in_one_sentence() {
     let folder = folder();
     let path = folder.path();

@@ -2,10 +2,11 @@
 //! One file for each in `configs/robots/`.
 
 use super::names::one_line;
-use crate::explore::{RobotTraits, Sight};
+use crate::explore::RobotTraits;
 use crate::geometry::{Body, Footprint, FootprintError, MotionLimits, Pose};
 use crate::grid::Inflation;
 use crate::range::{OutOfRange, Range, Ranged};
+use crate::scan::Sight;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

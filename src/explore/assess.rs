@@ -144,7 +144,7 @@ impl Assessor<'_> {
     /// and saw no more of it.
     fn spent_m(&self, target: Point, goal: &Option<Pose>) -> Option<f64> {
         let place = goal.as_ref()?.position();
-        let is_spent = self.blacklist.is_spent(place, target, self.sights.is_all_round());
+        let is_spent = self.blacklist.is_spent(place, target, self.sights.sight().is_all_round());
         is_spent.then(|| nalgebra::distance(&place, &target))
     }
 
@@ -164,7 +164,7 @@ impl Assessor<'_> {
 
     fn place(&self, target: Point, standing: &mut StandingSearch, refused: &dyn Fn(Point) -> bool) -> Option<Pose> {
         let goal = &self.settings.goal;
-        let heading = goal.heading.of_view(self.sights.is_all_round());
+        let heading = goal.heading.of_view(self.sights.sight().is_all_round());
         let search = StandingGoal { radius_m: goal.search_radius_m, heading, refused };
         standing.goal(self.field?, &self.robot, target, &search)
     }

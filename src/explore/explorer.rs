@@ -7,6 +7,7 @@
 //! says is what to do when something fails, and when a run may call itself complete:
 //! `follow.rs`, `recover.rs` and `audit.rs`.
 
+mod adjust;
 mod drive;
 mod follow;
 mod notices;
@@ -23,8 +24,8 @@ use super::sight::Sights;
 use super::state::{AfterTurn, Decision, State, has_ended, has_succeeded};
 use super::traits::RobotTraits;
 use super::trouble::Trouble;
-use crate::geometry::{Polygon, Pose};
-use crate::planning::{Driven, GlobalPlanner};
+use crate::geometry::Pose;
+use crate::planning::Driven;
 use crate::robot::{CommandId, MapSnapshot, Observation};
 use follow::Arrival;
 use std::f64::consts::TAU;
@@ -127,22 +128,6 @@ impl Explorer {
             State::Returning { goal, .. } => Some(*goal),
             _ => None,
         }
-    }
-
-    /// Explores only inside a region from now on, or everywhere again.
-    pub fn set_region(&mut self, region: Option<Polygon>) {
-        self.settings.region = region;
-    }
-
-    /// Only frontiers inside are explored, if there is one.
-    #[must_use]
-    pub const fn region(&self) -> Option<&Polygon> {
-        self.settings.region.as_ref()
-    }
-
-    /// Asks another planner for the way to a candidate, such as move_base's own.
-    pub fn set_planner(&mut self, planner: Box<dyn GlobalPlanner>) {
-        self.lookout.set_planner(planner);
     }
 
     /// One tick: from what is known to what shall be done. After the end it goes on

@@ -1,9 +1,10 @@
 //! A robot for tests: it jumps to its goals and sees three cells far.
 
-use crate::explore::{End, Explorer, ExplorerSettings, RobotTraits, Sight};
+use crate::explore::{End, Explorer, ExplorerSettings, RobotTraits};
 use crate::geometry::{Body, Footprint, MotionLimits, Pose};
 use crate::grid::{Inflation, OccupancyGrid};
 use crate::robot::{Command, MapSnapshot, Navigation, NavigationState, Observation};
+use crate::scan::Sight;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -32,6 +33,8 @@ pub struct Teleporter {
     pub moves: bool,
     /// It is not let turn on the spot.
     pub cannot_turn: bool,
+    /// It drives so far in a second, straight ahead, instead of jumping.
+    pub stride_m: Option<f64>,
     /// It comes to rest a little before its goals, and nobody calls that arrived.
     pub stops_short: bool,
     /// Each map comes with a correction of its pose.
@@ -61,6 +64,7 @@ impl Teleporter {
             aborts: false,
             moves: true,
             cannot_turn: false,
+            stride_m: None,
             stops_short: false,
             is_corrected: false,
             home: pose,
@@ -105,6 +109,15 @@ impl Teleporter {
             }
             Command::Drive { id, goal_in_map } if self.stops_short => {
                 self.pose = goal_in_map.compose(&Pose::new(-0.2, 0.0, 0.0));
+                (*id, NavigationState::Active)
+            }
+            Command::Drive { id, goal_in_map }
+                if self.stride_m.is_some_and(|stride_m| self.pose.distance_to(goal_in_map.position()) > stride_m) =>
+            {
+                let heading = Pose::facing(self.pose.position(), goal_in_map.position()).yaw;
+                let stride_m = self.stride_m.unwrap_or_default();
+                self.pose =
+                    Pose::new(self.pose.x + stride_m * heading.cos(), self.pose.y + stride_m * heading.sin(), heading);
                 (*id, NavigationState::Active)
             }
             Command::Drive { id, goal_in_map } => {

@@ -2,16 +2,20 @@
 
 use super::super::state::Phase;
 use super::*;
-use crate::explore::{PatienceSettings, Sight, TurnSettings};
+use crate::explore::{PatienceSettings, TurnSettings};
 use crate::geometry::Point;
 use crate::grid::{Cell, CellState, OccupancyGrid, Thresholds};
 use crate::planning::{HybridAstarConfig, PlannerConfig};
 use crate::robot::{Command, PoseError};
+use crate::scan::Sight;
 use std::f64::consts::{PI, TAU};
 
 #[path = "explorer_teleporter_tests.rs"]
 mod teleporter;
 use teleporter::{Teleporter, point_robot};
+
+#[path = "explorer_own_strategy_tests.rs"]
+mod own_strategy;
 
 /// Two rooms and a corridor, 17 x 9 m.
 const HOUSE: &str = "

@@ -2,6 +2,7 @@
 //! where there is none, look once more with other eyes.
 
 mod beside;
+mod costs;
 mod map_ways;
 mod second_look;
 
@@ -18,15 +19,18 @@ use super::standing::StandingSearch;
 use super::traits::RobotTraits;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
 use crate::geometry::{Path, Point, Pose};
-use crate::grid::{Costmap, LiveCostmap, Roomy, Snapshot, Thresholds};
-use crate::planning::{Astar, Driven, GlobalPlanner, Opened, Passable, PathField, PlanError};
+use crate::grid::{Costmap, Thresholds};
+use crate::planning::{Astar, Driven, GlobalPlanner, PathField, PlanError};
 use crate::robot::{MapSnapshot, Observation};
-use crate::selection::{GoalSelector, SelectionContext};
+use crate::selection::{GoalSelector, Ground, SelectionContext};
+use costs::Costs;
 use map_ways::MapWays;
 use std::sync::Arc;
 
 /// What a decision is made on, besides the map.
 pub struct Situation<'a> {
+    /// When, seconds.
+    pub now_s: f64,
     /// The settings.
     pub settings: &'a ExplorerSettings,
     /// What failed or was visited.
@@ -60,17 +64,6 @@ pub struct Lookout {
     costs: Costs,
 }
 
-/// The costmaps of a decision, one made of the other and each kept up to date.
-struct Costs {
-    /// Our own, where the map comes without one.
-    own: LiveCostmap,
-    /// For a robot that keeps to where it can turn.
-    roomy: Roomy,
-    /// The same, and what was driven through stays open.
-    opened: Opened,
-    passable: Passable,
-}
-
 /// What became of the frontiers of one detector.
 struct Weighed {
     assessed: Vec<Assessed>,
@@ -91,18 +84,18 @@ impl Lookout {
             audit: Audit::new(robot, settings.thresholds),
             frontiers: Arc::default(),
             path: None,
-            costs: Costs {
-                own: LiveCostmap::new(settings.thresholds, robot.inflation),
-                roomy: Roomy::default(),
-                opened: Opened::default(),
-                passable: Passable::default(),
-            },
+            costs: Costs::new(settings.thresholds, robot.inflation),
         }
     }
 
     /// Whether the strategy itself weighs when a goal under way is given up for a better one.
     pub fn keeps_goals(&self) -> bool {
         self.selector.keeps_goals()
+    }
+
+    /// Chooses by another strategy, such as one of one's own.
+    pub fn set_selector(&mut self, selector: Box<dyn GoalSelector>) {
+        self.selector = selector;
     }
 
     /// Asks another planner for the way to a candidate, such as move_base's own.
@@ -209,8 +202,16 @@ impl Lookout {
         let standing = &mut self.standing;
         let mut assessed: Vec<Assessed> = frontiers.iter().map(|f| assessor.assess(f, standing)).collect();
         let mut ways = MapWays::of(field.filter(|_| self.selector.needs().ways), situation.robot);
-        let (robot_in_map, under_way) = (situation.robot, situation.under_way);
-        let mut context = SelectionContext { robot_in_map, under_way, ways: &mut ways };
+        let thresholds = situation.settings.thresholds;
+        let ground = field.map(|field| Ground { grid: &map.grid, thresholds, costmap: field.costmap() });
+        let mut context = SelectionContext {
+            now_s: situation.now_s,
+            robot_in_map: situation.robot,
+            sight: situation.sights.sight(),
+            under_way: situation.under_way,
+            ground,
+            ways: &mut ways,
+        };
         let eligible = rank(&mut assessed, &mut *self.selector, &mut context);
         let choice =
             field.and_then(|field| self.first_with_a_way(&mut assessed[..eligible], field.costmap(), &situation.robot));
@@ -263,13 +264,6 @@ impl Lookout {
             self.path = Some(Arc::new(path));
             Some(choice)
         })
-    }
-}
-
-impl Costs {
-    /// The costmap that came with the map, or our own.
-    fn of(&mut self, map: &MapSnapshot) -> Snapshot<Costmap> {
-        map.costmap.clone().unwrap_or_else(|| self.own.update(&map.grid, &map.changes))
     }
 }
 

@@ -4,10 +4,10 @@
 //! is sent, sends none while the robot stands, and in an f64 of seconds since 1970 a
 //! nanosecond vanishes.
 
-use super::sight::Sight;
 use crate::geometry::{Pose, shortest_angle};
 use crate::grid::{LiveCensus, Thresholds};
 use crate::robot::MapSnapshot;
+use crate::scan::Sight;
 
 /// Motion below this is trembling of the pose, metres and radians.
 const STILL_M: f64 = 0.05;

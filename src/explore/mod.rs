@@ -30,7 +30,6 @@ pub use run::{Watcher, run};
 pub use settings::{
     DetectorSettings, ExplorerSettings, FinishSettings, GoalSettings, PatienceSettings, SettingsError, TurnSettings,
 };
-pub use sight::Sight;
 pub use standing::GoalHeading;
 pub use state::{Decision, Phase};
 pub use traits::RobotTraits;

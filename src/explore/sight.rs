@@ -8,43 +8,19 @@
 use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose, shortest_angle};
 use crate::grid::{Cell, CellState, GridInfo, NEIGHBOURS_8, OccupancyGrid, Thresholds, traverse};
+use crate::scan::Sight;
 use std::collections::HashMap;
-
-/// How far and how wide a robot's lidar sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
-    /// Its range, metres.
-    pub range_m: f64,
-    /// Its opening angle around the heading, radians.
-    pub field_of_view_rad: f64,
-    /// Heading of its middle in the base frame, radians.
-    pub heading_rad: f64,
-}
-
-impl Sight {
-    /// Up to here what is seen is seen for sure: rays lie closer together than cells, and
-    /// SLAM uses them all. Metres.
-    #[must_use]
-    pub fn sure_m(&self) -> f64 {
-        (0.5 * self.range_m).min(SURE_M)
-    }
-
-    /// Whether it sees all round.
-    #[must_use]
-    pub fn is_all_round(&self) -> bool {
-        self.field_of_view_rad >= ALL_ROUND_RAD
-    }
-
-    fn covers(&self, from: &Pose, target: Point) -> bool {
-        let aside_rad = shortest_angle(from.yaw + self.heading_rad, Pose::facing(from.position(), target).yaw);
-        self.is_all_round() || aside_rad.abs() <= 0.5 * self.field_of_view_rad
-    }
-}
 
 /// The longest distance that is sure, metres.
 const SURE_M: f64 = 3.0;
-/// A lidar with this opening angle or more leaves nothing out worth a turn, radians.
-const ALL_ROUND_RAD: f64 = 6.0;
+
+/// Up to here what is seen is seen for sure: rays lie closer together than cells, and SLAM uses
+/// them all. Metres.
+#[must_use]
+pub fn sure_m(sight: &Sight) -> f64 {
+    (0.5 * sight.range_m).min(SURE_M)
+}
+
 /// So near to a cell, what a line meets belongs to the same wall, metres: gmapping smears one
 /// over two or three cells, and erases it in part when it looks along it from afar.
 const SMEAR_M: f64 = 0.15;
@@ -104,10 +80,10 @@ impl Sights {
         }
     }
 
-    /// Whether the robot sees all round.
+    /// What the robot's lidar can see.
     #[must_use]
-    pub fn is_all_round(&self) -> bool {
-        self.sight.is_all_round()
+    pub const fn sight(&self) -> Sight {
+        self.sight
     }
 
     /// Nothing that was seen before counts any more, as after a jump of the map under the
@@ -145,7 +121,7 @@ impl Sights {
 
     fn has_seen(&self, cell: Cell, grid: &OccupancyGrid, thresholds: &Thresholds, until_s: f64) -> bool {
         let info = grid.info();
-        let (center, sure_m) = (info.center(cell), self.sight.sure_m());
+        let (center, sure_m) = (info.center(cell), sure_m(&self.sight));
         let mut near: Vec<(f64, &Place)> = Vec::new();
         let (x, y) = square_of(center);
         for square in (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (x + dx, y + dy))) {

@@ -1,8 +1,8 @@
 //! What the explorer knows of its robot: body, lidar and inflation.
 
-use super::sight::Sight;
 use crate::geometry::Body;
 use crate::grid::Inflation;
+use crate::scan::Sight;
 
 /// The robot, as far as decisions depend on it.
 #[derive(Clone, Debug, PartialEq)]

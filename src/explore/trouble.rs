@@ -64,6 +64,11 @@ impl Trouble {
         self.no_news_s
     }
 
+    /// The same as of the last tick.
+    pub const fn no_news_s(&self) -> f64 {
+        self.no_news_s
+    }
+
     /// The robot is at a pose.
     pub fn follow(&mut self, pose: &Pose) {
         if let Some((_, from)) = self.began {

@@ -27,7 +27,7 @@ pub use animation::Animation;
 pub use beside::{Beside, BesideRow};
 pub use comparison::{
     ComparedPreset, ComparedRun, ComparedWorld, Comparison, ComparisonError, ComparisonPlan, LiangRow, LiangTable,
-    Measure, PlannedRun, Spread, Summary, WorldPicture,
+    Measure, PAIRED, Paired, PlannedRun, Spread, Summary, WorldPicture,
 };
 pub use frame_log::{Frame, FrameLog};
 pub use html::HtmlReport;

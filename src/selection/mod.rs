@@ -23,7 +23,9 @@ pub use tour::{PLACE, TOUR_M, Tour, TourConfig};
 pub use ways::{StraightWays, Ways};
 
 use crate::geometry::{Point, Pose};
+use crate::grid::{Costmap, OccupancyGrid, Thresholds};
 use crate::range::{OutOfRange, Ranged};
+use crate::scan::Sight;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -85,19 +87,37 @@ pub struct Needs {
 
 /// What a strategy knows besides the candidates.
 pub struct SelectionContext<'a> {
+    /// When it chooses, seconds.
+    pub now_s: f64,
     /// Where the robot is.
     pub robot_in_map: Pose,
+    /// How far and how wide it sees.
+    pub sight: Sight,
     /// The target that it is on its way to.
     pub under_way: Option<Point>,
+    /// The map and the costs over it; `None` where nothing is in the way.
+    pub ground: Option<Ground<'a>>,
     /// Ways between places: straight lines unless [`Needs::ways`] asks for more.
     pub ways: &'a mut dyn Ways,
+}
+
+/// What the candidates lie on.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a> {
+    /// The map.
+    pub grid: &'a OccupancyGrid,
+    /// Which of its values are free and which occupied.
+    pub thresholds: Thresholds,
+    /// What the robot may drive over; its cells need not be the map's.
+    pub costmap: &'a Costmap,
 }
 
 impl<'a> SelectionContext<'a> {
     /// That of a robot that is on its way to nothing, where nothing is in the way.
     #[must_use]
     pub fn straight(ways: &'a mut StraightWays) -> Self {
-        Self { robot_in_map: ways.robot_in_map, under_way: None, ways }
+        let (robot_in_map, sight) = (ways.robot_in_map, Sight::EVERYWHERE);
+        Self { now_s: 0.0, robot_in_map, sight, under_way: None, ground: None, ways }
     }
 }
 

@@ -75,3 +75,22 @@ fn unknown_parameters_are_refused() {
     let negative = SelectorConfig::JointCost(JointCostConfig { size_weight: -1.0, distance_weight: 1.0 });
     assert_eq!(negative.validate().unwrap_err().to_string(), "selection.size_weight is -1: must be finite and >= 0");
 }
+
+#[test]
+fn a_tour_goes_on_to_a_target_that_is_far_away() {
+    // Eight places near by, and far away the one that the robot is on its way to.
+    let robot_in_map = Pose::default();
+    let at = |x: f64, y: f64| Candidate::new(Point::new(x, y), Pose::new(x, y, 0.0), 10, 0.5, &robot_in_map);
+    let mut candidates: Vec<Candidate> = (0..8).map(|i| at(30.0, f64::from(i))).collect();
+    candidates.push(at(-31.0, 0.0));
+    let mut ways = StraightWays { robot_in_map };
+    let mut first = |under_way: Option<Point>| {
+        let tour = TourConfig { most: 8, turn_m_per_rad: 0.0, stay_m: 200.0, ..TourConfig::default() };
+        let mut context = SelectionContext { under_way, ..SelectionContext::straight(&mut ways) };
+        let scores = Tour(tour).score(&candidates, &mut context);
+        scores.iter().position(|score| score.total == 0.0)
+    };
+    assert!(first(None).is_some_and(|first| first < 8));
+    assert_eq!(first(Some(Point::new(-30.0, 0.0))), Some(8));
+    assert!(first(Some(Point::new(0.0, 30.0))).is_some_and(|first| first < 8), "it is gone");
+}

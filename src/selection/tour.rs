@@ -114,7 +114,19 @@ impl GoalSelector for Tour {
         let way_m = |c: &Candidate| c.way_m.unwrap_or(c.distance_m);
         let mut by_way: Vec<usize> = (0..candidates.len()).collect();
         by_way.sort_by(|&a, &b| way_m(&candidates[a]).total_cmp(&way_m(&candidates[b])).then(a.cmp(&b)));
-        let (kept, others) = by_way.split_at(by_way.len().min(self.0.most));
+        let most = by_way.len().min(self.0.most);
+        let (kept, others) = by_way.split_at_mut(most);
+        // The target under way takes part however far away it is: else nothing speaks for it.
+        let away_m = |&index: &usize| {
+            context.under_way.map_or(f64::INFINITY, |target| nalgebra::distance(&candidates[index].target, &target))
+        };
+        let nearest = |places: &[usize]| places.iter().map(away_m).fold(f64::INFINITY, f64::min);
+        if nearest(kept) > self.0.same_m
+            && let Some(under_way) = others.iter_mut().find(|index| away_m(index) <= self.0.same_m)
+            && let Some(farthest) = kept.last_mut()
+        {
+            std::mem::swap(under_way, farthest);
+        }
         let places: Vec<Point> = kept.iter().map(|&index| candidates[index].goal.position()).collect();
         let (ways_m, turns): (Vec<f64>, Vec<f64>) = places.iter().map(|&place| context.ways.set_out(place)).unzip();
         let turning_m = |turn: &f64| (turn - self.0.free_turn_rad).max(0.0) * self.0.turn_m_per_rad;

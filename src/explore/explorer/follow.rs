@@ -14,6 +14,10 @@ const NUDGE_RAD: f64 = 0.7;
 /// So many of them are made before the map has to come by itself.
 const NUDGES: u32 = 3;
 
+/// A strategy that weighs itself when to change its goal is not let change it when nothing new was
+/// seen for so long, seconds.
+const FICKLE_S: f64 = 15.0;
+
 /// A goal that was reached.
 #[derive(Clone, Copy, Debug)]
 pub struct Arrival {
@@ -65,6 +69,7 @@ impl Explorer {
         self.counts.detections += 1;
         self.trouble.sees(self.watch.known_m2(), now_s);
         let situation = Situation {
+            now_s,
             settings: &self.settings,
             blacklist: &self.blacklist,
             sights: &self.sights,
@@ -147,7 +152,9 @@ impl Explorer {
                 let goal = &self.settings.goal;
                 let is_same = drive.goal.distance_to(choice.goal.position()) < goal.already_there_m;
                 let comes_first = choice.is_beside && !drive.is_beside;
-                let is_kept = !self.lookout.keeps_goals() && decided.is_open_near(drive.target, goal.commit_radius_m);
+                // Of two that are about as good, a strategy may like now this one and now that one.
+                let may_change = self.lookout.keeps_goals() && self.trouble.no_news_s() < FICKLE_S;
+                let is_kept = !may_change && decided.is_open_near(drive.target, goal.commit_radius_m);
                 if is_same || !comes_first && is_kept {
                     drive.considered_s = map.stamp_s;
                     drive.considered_version = map.version();

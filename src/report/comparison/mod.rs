@@ -9,6 +9,7 @@ mod curves;
 mod file;
 mod liang;
 mod page;
+mod paired;
 mod rounding;
 mod statistics;
 mod summary;
@@ -16,6 +17,7 @@ mod world;
 
 pub use file::ComparisonError;
 pub use liang::{LiangRow, LiangTable};
+pub use paired::{PAIRED, Paired};
 pub use statistics::Spread;
 pub use summary::{Measure, Summary};
 pub use world::{ComparedWorld, WorldPicture};

@@ -5,6 +5,7 @@
 //! is the goal. With each map the rest of the route is bettered from where the robot is, by what
 //! has really been seen: what is no longer worth driving to is left out.
 
+use super::record::{DONE, Driven};
 use super::routes::{Routes, Situation};
 use super::search::Search;
 use super::seen::Seen;
@@ -13,12 +14,10 @@ use crate::explore::{Counts, EndReason};
 use crate::geometry::{Point, Pose};
 use crate::report::Series;
 use crate::robot::{Command, CommandId, NavigationState, Observation, Robot};
-use crate::sim::{SimRobot, SimStats};
+use crate::sim::SimRobot;
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The share of coverage at which the oracle is done.
-pub(super) const DONE: f64 = 0.99;
 /// How much more than that is planned for again when a route did not suffice.
 const MORE: f64 = 0.002;
 /// A block is reached within this distance of its stand, metres.
@@ -39,35 +38,6 @@ const MOST_ROUTES: usize = 40;
 
 /// A new point of the trajectory is remembered after this way, metres.
 const TRAJECTORY_STEP_M: f64 = 0.05;
-
-/// A drive that is over.
-pub(super) struct Driven {
-    /// Why it ended: [`EndReason::TimeLimit`] also where it was of no more use.
-    pub end: EndReason,
-    /// Coverage over time.
-    pub series: Series,
-    /// The way driven.
-    pub trajectory: Vec<Point>,
-    /// What the run came to.
-    pub stats: SimStats,
-    /// The goals, counted.
-    pub counts: Counts,
-}
-
-impl Driven {
-    /// A drive that has not begun.
-    pub fn nowhere(stats: SimStats) -> Self {
-        let mut series = Series::new();
-        series.push(stats.sim_time_s, stats.coverage, stats.distance_m);
-        let end = if stats.coverage >= DONE { EndReason::Complete } else { EndReason::Stuck };
-        Self { end, series, trajectory: Vec::new(), stats, counts: Counts::default() }
-    }
-
-    /// Whether it has seen enough.
-    pub fn is_done(&self) -> bool {
-        self.stats.coverage >= DONE
-    }
-}
 
 /// When a drive ends besides by having seen enough.
 pub(super) struct Limits<'a> {

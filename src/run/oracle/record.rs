@@ -1,11 +1,14 @@
 //! What is recorded of an oracle's drive: the same figures as of every run.
 
 use super::ORACLE;
-use super::pilot::Driven;
-use crate::explore::{LeftBehind, TimeSpent};
+use crate::explore::{Counts, EndReason, LeftBehind, TimeSpent};
 use crate::geometry::Point;
-use crate::report::{MedianMax, RunRecord, SCHEMA_VERSION, Wall};
+use crate::report::{MedianMax, RunRecord, SCHEMA_VERSION, Series, Wall};
 use crate::run::Plan;
+use crate::sim::SimStats;
+
+/// The share of coverage at which the oracle is done.
+pub(super) const DONE: f64 = 0.99;
 
 /// The best drive that was found.
 pub struct OracleRun {
@@ -15,7 +18,34 @@ pub struct OracleRun {
     pub trajectory: Vec<Point>,
 }
 
+/// A drive that is over.
+pub(super) struct Driven {
+    /// Why it ended: [`EndReason::TimeLimit`] also where it was of no more use.
+    pub end: EndReason,
+    /// Coverage over time.
+    pub series: Series,
+    /// The way driven.
+    pub trajectory: Vec<Point>,
+    /// What the run came to.
+    pub stats: SimStats,
+    /// The goals, counted.
+    pub counts: Counts,
+}
+
 impl Driven {
+    /// A drive that has not begun.
+    pub fn nowhere(stats: SimStats) -> Self {
+        let mut series = Series::new();
+        series.push(stats.sim_time_s, stats.coverage, stats.distance_m);
+        let end = if stats.coverage >= DONE { EndReason::Complete } else { EndReason::Stuck };
+        Self { end, series, trajectory: Vec::new(), stats, counts: Counts::default() }
+    }
+
+    /// Whether it has seen enough.
+    pub fn is_done(&self) -> bool {
+        self.stats.coverage >= DONE
+    }
+
     /// The drive as reports keep it; with all planning it took `total_s` seconds of real time.
     pub(super) fn record(self, plan: &Plan, total_s: f64) -> OracleRun {
         let Self { end, series, trajectory, stats, counts } = self;

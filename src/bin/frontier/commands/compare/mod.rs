@@ -10,7 +10,7 @@ use crate::{inputs, output, stop, values};
 use anyhow::Context;
 use frontier_explorer::config::Preset;
 use frontier_explorer::io::{BUILT_IN_WORLDS, load_preset, load_robot, write_atomic};
-use frontier_explorer::report::Comparison;
+use frontier_explorer::report::{Comparison, ComparisonPlan};
 use frontier_explorer::run::comparison::{Runner, Starts};
 use frontier_explorer::sim::SlamKind;
 use progress::Progress;
@@ -50,6 +50,9 @@ pub struct Args {
     /// routes that it finds. Each preset's T99 is then also given as a multiple of the oracle's.
     #[arg(long)]
     oracle: bool,
+    /// Print all presets measured by this one as well: ratios of times, and where they came earlier.
+    #[arg(long, value_name = "PRESET", value_parser = values::trimmed)]
+    against: Option<String>,
     /// Runs at the same time. As many as there are processors when left out.
     #[arg(long, value_name = "N")]
     jobs: Option<std::num::NonZeroUsize>,
@@ -84,12 +87,13 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         compare(args)?
     } else {
         let merged = merge(&args.merge)?;
+        unless_compared(args, &merged.plan)?;
         let all = merged.plan.runs().len();
         (merged, all)
     };
     write(args, &comparison)?;
     if !args.quiet {
-        tables::print(&comparison)?;
+        tables::print(&comparison, args.against.as_deref())?;
         let missing = expected.saturating_sub(comparison.runs.len());
         if missing > 0 {
             output::line(format_args!("{missing} of {expected} runs were not made"))?;
@@ -107,11 +111,24 @@ fn compare(args: &Args) -> anyhow::Result<(Comparison, usize)> {
     let runner = Runner::new(presets, robot, &args.worlds, &starts, args.slam, args.time_limit)?;
     let runner = if args.oracle { runner.with_oracle()? } else { runner };
     let plan = runner.plan(&args.seeds)?;
+    unless_compared(args, &plan)?;
     let runs: Vec<_> = plan.runs().into_iter().filter(|run| args.shard.holds(run.index)).collect();
     let progress = Progress::new(args.quiet, runs.len());
     let made = runner.make(&runs, args.jobs, &stop::flag()?, |run| progress.made(run));
     progress.finish();
     Ok((Comparison { plan, runs: made? }, runs.len()))
+}
+
+/// Refuses to measure by a preset that is not compared.
+fn unless_compared(args: &Args, plan: &ComparisonPlan) -> anyhow::Result<()> {
+    let names = || plan.presets.iter().map(|preset| preset.name.as_str());
+    match &args.against {
+        Some(name) if !names().any(|known| known == name) => {
+            let valid = names().collect::<Vec<_>>().join(", ");
+            anyhow::bail!("--against {name}: no such preset is compared: must be one of {valid}")
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The presets by their names.

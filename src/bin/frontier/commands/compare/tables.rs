@@ -2,7 +2,7 @@
 
 use crate::output;
 use comfy_table::{CellAlignment, Table};
-use frontier_explorer::report::{Comparison, LiangTable, Measure, Spread, Summary};
+use frontier_explorer::report::{Comparison, LiangTable, Measure, PAIRED, Paired, Spread, Summary};
 
 /// How to read the cells.
 const LEGEND: &str = "\
@@ -16,12 +16,21 @@ const ORACLE_LEGEND: &str = "\
 T99/oracle's: T99 as a multiple of that of the oracle, which knows the world, in the same world,
 from the same start, with the same seed. The oracle stops at 99 %.";
 
-/// Prints all tables.
-pub fn print(comparison: &Comparison) -> anyhow::Result<()> {
+/// How to read the table of presets measured by one of them.
+const PAIRED_LEGEND: &str = "\
+Ratios of the medians, and the median (25-75 %) [95 % interval] of the ratios of T99 in the same
+world from the same start with the same seed; in how many of these it came earlier.";
+
+/// Prints all tables; also one of all presets measured by the one with a name.
+pub fn print(comparison: &Comparison, against: Option<&str>) -> anyhow::Result<()> {
     output::line(format_args!("{}", summaries(&comparison.summaries())))?;
     output::line(format_args!("{LEGEND}"))?;
     if comparison.plan.oracle().is_some() {
         output::line(format_args!("{ORACLE_LEGEND}"))?;
+    }
+    if let Some((name, paired)) = against.and_then(|name| Some((name, comparison.paired_with(name)?))) {
+        output::line(format_args!("\nMeasured by {name}:\n{}", measured(&paired)))?;
+        output::line(format_args!("{PAIRED_LEGEND}"))?;
     }
     if comparison.plan.worlds.len() > 1 {
         output::line(format_args!("\n{}", by_world(&comparison.summaries_by_world())))?;
@@ -49,6 +58,20 @@ fn summaries(summaries: &[Summary]) -> Table {
             milliseconds(summary.decision_median_ms),
             milliseconds(summary.decision_max_ms)
         ));
+        table.add_row(row);
+    }
+    table
+}
+
+/// A row for each preset, measured by one of them.
+fn measured(paired: &[Paired]) -> Table {
+    let head = ["preset"].into_iter().chain(PAIRED.map(|measure| measure.title().split(' ').next().unwrap_or("")));
+    let mut table = table(head.chain(["T99, place by place", "faster"]));
+    for preset in paired {
+        let mut row = vec![preset.preset.clone()];
+        row.extend(preset.ratios.map(|ratio| number(ratio, 2)));
+        row.push(cell(&preset.t99, 2));
+        row.push(format!("{}/{}", preset.faster, preset.places));
         table.add_row(row);
     }
     table
