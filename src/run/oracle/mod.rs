@@ -29,7 +29,7 @@ mod seen;
 mod sights;
 mod stage;
 
-pub use record::OracleRun;
+pub use record::{ORACLE, OracleRun};
 
 use crate::config::Preset;
 use crate::control::{ControllerConfig, DwaConfig, FollowerConfig};
@@ -45,9 +45,6 @@ use sights::Sights;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
-
-/// The name of the oracle in reports.
-pub const ORACLE: &str = "oracle";
 
 /// The most routes that are driven. Each is the best of [`COVERS`] covers, and its drive teaches
 /// what is really seen from where, which the next ones are planned with.

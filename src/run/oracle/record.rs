@@ -1,11 +1,13 @@
 //! What is recorded of an oracle's drive: the same figures as of every run.
 
-use super::ORACLE;
 use crate::explore::{Counts, EndReason, LeftBehind, TimeSpent};
 use crate::geometry::Point;
 use crate::report::{MedianMax, RunRecord, SCHEMA_VERSION, Series, Wall};
 use crate::run::Plan;
 use crate::sim::SimStats;
+
+/// The name of the oracle in reports.
+pub const ORACLE: &str = "oracle";
 
 /// The share of coverage at which the oracle is done.
 pub(super) const DONE: f64 = 0.99;
