@@ -44,7 +44,7 @@ pub struct CoarseWays {
 
 /// What the ways from one place to everywhere cost.
 #[derive(Clone, Debug)]
-pub(crate) struct WaysFrom {
+pub struct WaysFrom {
     cost: Vec<u32>,
 }
 
@@ -89,21 +89,24 @@ impl CoarseWays {
     }
 
     /// The ways from a place to everywhere.
-    pub(crate) fn ways_from(&mut self, from: Point) -> WaysFrom {
+    #[must_use]
+    pub fn ways_from(&mut self, from: Point) -> WaysFrom {
         self.search(from, None);
         WaysFrom { cost: self.cost.clone() }
     }
 
     /// A shortest way from a point to the place of such ways, as centres of coarse cells that
     /// lie beside each other; none where there is no way.
-    pub(crate) fn way_to(&self, place: &WaysFrom, from: Point) -> Vec<Point> {
+    #[must_use]
+    pub fn way_to(&self, place: &WaysFrom, from: Point) -> Vec<Point> {
         let start = self.open_near(from).filter(|&index| place.cost[index] < UNREACHED);
         let way = std::iter::successors(start, |&index| self.nearer(&place.cost, index));
         way.map(|index| self.center(index)).collect()
     }
 
     /// How long that way is, metres; infinite where there is none.
-    pub(crate) fn way_m(&self, place: &WaysFrom, from: Point) -> f64 {
+    #[must_use]
+    pub fn way_m(&self, place: &WaysFrom, from: Point) -> f64 {
         self.length_m(self.open_near(from).map_or(UNREACHED, |index| place.cost[index]))
     }
 

@@ -17,6 +17,8 @@ pub use joint_cost::{JointCost, JointCostConfig};
 pub use max_gain::MaxGain;
 pub use mrtsp::Mrtsp;
 pub use nearest::{DistanceMeasure, Nearest, NearestConfig};
+// The oracle orders its views by it.
+#[cfg(feature = "report")]
 pub(crate) use open_tour::OpenTour;
 pub use radius_distance::RadiusDistance;
 pub use tour::{PLACE, TOUR_M, Tour, TourConfig};

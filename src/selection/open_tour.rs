@@ -138,6 +138,7 @@ impl OpenTour {
 
     /// A short tour over all places: the exact one of few places, and of many the nearest
     /// neighbours', bettered as that of [`Self::best_from`] with no place kept first.
+    #[cfg(any(test, feature = "report"))]
     pub fn short_order(&self) -> Vec<usize> {
         if self.first.len() <= EXACT_UP_TO {
             self.best_order()

@@ -6,7 +6,7 @@
 //! of every other run. Its aim is the least time to 99 % of coverage, and there its drive ends.
 //!
 //! It is an upper bound on the least possible time and not that time: routes are found by local
-//! search ([`search`]), several are driven, and the fastest drive counts. Times to smaller shares
+//! search, several are driven, and the fastest drive counts. Times to smaller shares
 //! are what that drive comes to and may be beaten. Both of our controllers drive in turns: the
 //! Dynamic Window Approach is the faster one in most drives, and pure pursuit gets through where it
 //! finds no motion.
