@@ -127,7 +127,7 @@ pub enum AfterTurn {
     /// The same, and it was all that was left to do for a target. Where the turn was made, it was
     /// looked at; where not, seeing it has failed.
     LookedAt(Point),
-    /// It moved to bring a map, for the so manieth time.
+    /// It moved to bring a map; how often so far.
     Confirm(u32),
 }
 

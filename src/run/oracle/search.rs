@@ -13,7 +13,7 @@ use rand_pcg::Pcg32;
 use rand_pcg::rand_core::Rng;
 use std::collections::HashMap;
 
-/// The most places; where there are more blocks, every so manieth of every so manieth row.
+/// The most places; where there are more blocks, every second of every second row, or every third.
 const MOST_PLACES: usize = 700;
 /// Places that see at least this share of the best one's are as good for a cover.
 const AS_GOOD: f64 = 0.8;
