@@ -60,6 +60,10 @@ impl Explorer {
                     self.trouble.is_wedged_here(&pose);
                     Some("the robot stands too near to an obstacle to be planned for".to_owned())
                 } else if still_s >= if drive.progress.has_moved() { patience.stall_s } else { patience.begin_s } {
+                    if self.settings.taboo.is_final {
+                        // A failure is for good there, and this one may be the place's: it backs off first.
+                        self.trouble.is_wedged_here(&pose);
+                    }
                     Some(format!("the robot has not moved for {still_s:.0} s"))
                 } else {
                     None
