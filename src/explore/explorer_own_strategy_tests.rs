@@ -80,10 +80,6 @@ fn a_strategy_that_cannot_decide_is_held_to_its_goal() {
     settings.goal.reconsider_period_s = Some(1.0);
     let mut explorer = Explorer::new(settings, &point_robot()).unwrap();
     explorer.set_selector(Box::new(Fickle(0)));
-    let end = (0..4000).find_map(|_| {
-        let decision = explorer.step(&robot.observation());
-        robot.obey(&decision.command);
-        decision.end
-    });
+    let end = robot.follow(&mut explorer, 4000);
     assert_eq!(end.map(|end| end.reason), Some(EndReason::Complete));
 }

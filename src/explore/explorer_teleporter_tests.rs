@@ -133,14 +133,16 @@ impl Teleporter {
 
     pub fn explore(&mut self, settings: ExplorerSettings) -> (End, Explorer) {
         let mut explorer = Explorer::new(settings, &point_robot()).unwrap();
-        for _ in 0..2000 {
-            let observation = self.observation();
-            let decision = explorer.step(&observation);
+        let end = self.follow(&mut explorer, 2000).expect("the run did not end");
+        (end, explorer)
+    }
+
+    /// Does what an explorer asks for, up to so many steps, until it ends.
+    pub fn follow(&mut self, explorer: &mut Explorer, steps: usize) -> Option<End> {
+        (0..steps).find_map(|_| {
+            let decision = explorer.step(&self.observation());
             self.obey(&decision.command);
-            if let Some(end) = decision.end {
-                return (end, explorer);
-            }
-        }
-        panic!("the run did not end");
+            decision.end
+        })
     }
 }

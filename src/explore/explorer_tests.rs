@@ -118,12 +118,7 @@ fn a_look_round_that_is_not_made_shows_nothing() {
         let sight = Sight { range_m: 3.0, field_of_view_rad: 1.0, heading_rad: 0.0 };
         let settings = ExplorerSettings { turns, ..ExplorerSettings::default() };
         let mut explorer = Explorer::new(settings, &RobotTraits { sight, ..point_robot() }).unwrap();
-        let mut steps = 0..2000;
-        let end = steps.find_map(|_| {
-            let decision = explorer.step(&robot.observation());
-            robot.obey(&decision.command);
-            decision.end
-        });
+        let end = robot.follow(&mut explorer, 2000);
         end.map(|end| (end.reason, end.left_behind.frontiers))
     };
     assert_eq!(end_of(true), Some((EndReason::Stuck, 1)));
@@ -140,11 +135,7 @@ fn a_robot_that_drives_on_at_once_has_been_there_all_the_same() {
     settings.goal.reconsider_period_s = Some(1.0);
     let sight = Sight { range_m: 1.0, field_of_view_rad: TAU, heading_rad: 0.0 };
     let mut explorer = Explorer::new(settings, &RobotTraits { sight, ..point_robot() }).unwrap();
-    let end = (0..200).find_map(|_| {
-        let decision = explorer.step(&robot.observation());
-        robot.obey(&decision.command);
-        decision.end
-    });
+    let end = robot.follow(&mut explorer, 200);
     let end = end.expect("an end, and no driving to and fro until nothing was seen for long");
     assert_eq!((end.reason, end.left_behind.frontiers), (EndReason::Complete, 2), "{}", end.message);
 }

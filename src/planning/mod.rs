@@ -23,7 +23,6 @@ mod swept;
 pub use astar::Astar;
 pub use breadth_first::{BreadthFirst, BreadthFirstConfig};
 pub use coarse_ways::{CoarseWays, WaysFrom};
-
 pub use d_star_lite::DStarLite;
 pub use dijkstra::Dijkstra;
 pub(crate) use driven::{Driven, Opened};

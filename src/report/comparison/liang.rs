@@ -5,8 +5,9 @@
 //! seconds; what can hold or not is the order of the three.
 
 use super::Comparison;
+use super::measure::Measure;
 use super::statistics::Spread;
-use super::summary::{Measure, Summary};
+use super::summary::Summary;
 use serde::Serialize;
 
 /// The world that stands for the paper's.

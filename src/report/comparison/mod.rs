@@ -8,6 +8,7 @@ mod csv;
 mod curves;
 mod file;
 mod liang;
+mod measure;
 mod page;
 mod paired;
 mod rounding;
@@ -17,9 +18,10 @@ mod world;
 
 pub use file::ComparisonError;
 pub use liang::{LiangRow, LiangTable};
+pub use measure::Measure;
 pub use paired::{PAIRED, Paired};
 pub use statistics::Spread;
-pub use summary::{Measure, Summary};
+pub use summary::Summary;
 pub use world::{ComparedWorld, WorldPicture};
 
 use super::run_json::{RunRecord, Wall};

@@ -2,8 +2,9 @@
 
 use super::curves::{coverage_curves_svg, css_color};
 use super::liang::LiangTable;
+use super::measure::Measure;
 use super::statistics::Spread;
-use super::summary::{Measure, Summary};
+use super::summary::Summary;
 use super::{ComparedRun, ComparedWorld, Comparison};
 use crate::geometry::Point;
 use crate::report::ReportError;

@@ -1,11 +1,25 @@
 //! Presets measured by one of them, place by place: a world, a start and a seed.
 
+use super::measure::Measure;
 use super::statistics::{Spread, quantile};
-use super::{ComparedRun, Comparison, Measure};
+use super::{ComparedRun, Comparison};
 use std::collections::BTreeMap;
 
 /// The measures that are compared, in the order of [`Paired::ratios`].
 pub const PAIRED: [Measure; 4] = [Measure::T90, Measure::T95, Measure::T99, Measure::Tend];
+
+/// A run, and one of another preset in the same place.
+pub(super) type Pair<'a> = (&'a ComparedRun, &'a ComparedRun);
+
+/// The T99 of each run by the other's, where the other reached it.
+pub(super) fn t99_ratios(pairs: &[Pair<'_>]) -> Spread {
+    let ratio = |run: &ComparedRun, other_s: f64| match Measure::T99.of(run)? {
+        // Where a first look is enough, nobody is slower.
+        time_s if time_s <= other_s && other_s == 0.0 => Some(1.0),
+        time_s => Some(time_s / other_s).filter(|ratio| ratio.is_finite()),
+    };
+    Spread::of(pairs.iter().filter_map(|(run, other)| Some(ratio(run, Measure::T99.of(other)?))))
+}
 
 /// A preset measured by another one.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,34 +44,33 @@ impl Comparison {
     pub fn paired_with(&self, name: &str) -> Option<Vec<Paired>> {
         let presets = &self.plan.presets;
         presets.iter().any(|preset| preset.name == name).then(|| {
-            let place = |run: &ComparedRun| (run.world.clone(), run.start_number, run.seed);
-            let others: BTreeMap<_, &ComparedRun> = self.runs_of(name, None).map(|run| (place(run), run)).collect();
-            let paired = |preset: &str| {
-                let runs = self.runs_of(preset, None);
-                let pairs = runs.filter_map(|run| Some((run, *others.get(&place(run))?))).collect::<Vec<_>>();
-                Paired::of(preset, &pairs)
-            };
+            let paired = |preset: &str| Paired::of(preset, &self.beside(name, self.runs_of(preset, None)));
             presets.iter().map(|preset| paired(&preset.name)).collect()
         })
+    }
+
+    /// Runs with those of the preset with a name in the same places, where there are such.
+    pub(super) fn beside<'a>(&'a self, name: &'a str, runs: impl Iterator<Item = &'a ComparedRun>) -> Vec<Pair<'a>> {
+        let place = |run: &ComparedRun| (run.world.clone(), run.start_number, run.seed);
+        let others: BTreeMap<_, &ComparedRun> = self.runs_of(name, None).map(|run| (place(run), run)).collect();
+        runs.filter_map(|run| Some((run, *others.get(&place(run))?))).collect()
     }
 }
 
 impl Paired {
-    fn of(preset: &str, pairs: &[(&ComparedRun, &ComparedRun)]) -> Self {
+    fn of(preset: &str, pairs: &[Pair<'_>]) -> Self {
         let late = |measure: Measure, run: &ComparedRun| measure.of(run).unwrap_or(f64::INFINITY);
         let ratio = |measure: Measure| {
             let ours = median(pairs.iter().map(|(run, _)| late(measure, run)));
             let ratio = ours / median(pairs.iter().map(|(_, other)| late(measure, other)));
             (ours.is_finite() && ratio.is_finite() && ratio > 0.0).then_some(ratio)
         };
-        let t99_s: Vec<(f64, f64)> =
-            pairs.iter().map(|(run, other)| (late(Measure::T99, run), late(Measure::T99, other))).collect();
-        let by_place = t99_s.iter().filter(|(_, other)| other.is_finite() && *other > 0.0);
+        let is_faster = |(run, other): &&Pair<'_>| late(Measure::T99, run) < late(Measure::T99, other);
         Self {
             preset: preset.to_owned(),
             ratios: PAIRED.map(ratio),
-            t99: Spread::of(by_place.map(|(own, other)| own.is_finite().then_some(own / other))),
-            faster: t99_s.iter().filter(|(own, other)| own < other).count(),
+            t99: t99_ratios(pairs),
+            faster: pairs.iter().filter(is_faster).count(),
             places: pairs.len(),
         }
     }

@@ -1,59 +1,11 @@
 //! What the runs of a preset come to.
 
+use super::measure::Measure;
+use super::paired::t99_ratios;
 use super::statistics::Spread;
 use super::{ComparedRun, Comparison};
 use serde::Serialize;
 use std::collections::BTreeMap;
-
-/// What is measured of every run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Measure {
-    /// Seconds to half of the reachable free area.
-    T50,
-    /// Seconds to 90 % of it.
-    T90,
-    /// Seconds to 95 % of it.
-    T95,
-    /// Seconds to 99 % of it.
-    T99,
-    /// Seconds to the end, of runs that succeeded.
-    Tend,
-    /// Metres driven to the end, of runs that succeeded.
-    Distance,
-}
-
-impl Measure {
-    /// All of them, as tables show them.
-    pub const ALL: [Self; 6] = [Self::T50, Self::T90, Self::T95, Self::T99, Self::Tend, Self::Distance];
-
-    /// The head of its column.
-    #[must_use]
-    pub const fn title(self) -> &'static str {
-        match self {
-            Self::T50 => "T50 (s)",
-            Self::T90 => "T90 (s)",
-            Self::T95 => "T95 (s)",
-            Self::T99 => "T99 (s)",
-            Self::Tend => "Tend (s)",
-            Self::Distance => "distance (m)",
-        }
-    }
-
-    /// Of one run, `None` where it was not reached.
-    #[must_use]
-    pub fn of(self, run: &ComparedRun) -> Option<f64> {
-        let time_s = |share: &str| run.time_to_coverage_s.get(share).copied().flatten();
-        match self {
-            Self::T50 => time_s("0.50"),
-            Self::T90 => time_s("0.90"),
-            Self::T95 => time_s("0.95"),
-            Self::T99 => time_s("0.99"),
-            Self::Tend => run.succeeded().then_some(run.sim_time_s),
-            Self::Distance => run.succeeded().then_some(run.distance_m),
-        }
-    }
-}
 
 /// The runs of a preset, in one world or in all.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -120,15 +72,7 @@ impl Comparison {
     /// How many times as long as the oracle's some runs took to 99 %; `None` without an oracle.
     fn t99_to_oracle(&self, runs: &[&ComparedRun]) -> Option<Spread> {
         let oracle = self.plan.oracle()?;
-        let key = |run: &ComparedRun| (run.world.clone(), run.start_number, run.seed);
-        let oracles: BTreeMap<_, f64> =
-            self.runs_of(&oracle.name, None).filter_map(|run| Some((key(run), Measure::T99.of(run)?))).collect();
-        let ratio = |run: &ComparedRun, least_s: f64| match Measure::T99.of(run)? {
-            // Where a first look is enough, nobody is slower.
-            time_s if time_s <= least_s && least_s == 0.0 => Some(1.0),
-            time_s => Some(time_s / least_s).filter(|ratio| ratio.is_finite()),
-        };
-        Some(Spread::of(runs.iter().filter_map(|run| Some(ratio(run, *oracles.get(&key(run))?)))))
+        Some(t99_ratios(&self.beside(&oracle.name, runs.iter().copied())))
     }
 
     /// One summary for each preset, over all worlds.
