@@ -183,6 +183,12 @@ pub trait Robot {
     /// [`RobotError`] when there will be no next tick.
     fn observe(&mut self) -> Result<Observation, RobotError>;
 
+    /// Whether the last observation is one to decide on. It is none before the first map and the
+    /// first pose have come, or while the exploration rests: whoever looks on sees it all the same.
+    fn is_ready(&self) -> bool {
+        true
+    }
+
     /// Hands over the command for the time until the next tick.
     ///
     /// # Errors

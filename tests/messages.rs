@@ -2,8 +2,8 @@
 //! (`rosmsg md5`): a connection with another sum is refused.
 
 use ::frontier_explorer::ros::msg::{
-    actionlib_msgs, diagnostic_msgs, frontier_explorer as own, geometry_msgs, map_msgs, move_base_msgs, nav_msgs,
-    rosgraph_msgs, sensor_msgs, std_msgs, std_srvs, tf2_msgs, visualization_msgs,
+    actionlib_msgs, diagnostic_msgs, dynamic_reconfigure, frontier_explorer as own, geometry_msgs, map_msgs,
+    move_base_msgs, nav_msgs, rosgraph_msgs, sensor_msgs, std_msgs, std_srvs, tf2_msgs, visualization_msgs,
 };
 use rosrust::Message;
 
@@ -46,6 +46,11 @@ fn messages_are_those_of_ros() {
     check::<sensor_msgs::LaserScan>("sensor_msgs/LaserScan", "90c7ef2dc6895d81024acba2ac42f369");
     check::<tf2_msgs::TFMessage>("tf2_msgs/TFMessage", "94810edda583a504dfda3829e70d7eec");
     check::<visualization_msgs::MarkerArray>("visualization_msgs/MarkerArray", "d155b9ce5188fbaf89745847fd5882d7");
+    check::<dynamic_reconfigure::Config>("dynamic_reconfigure/Config", "958f16a05573709014982821e6822580");
+    check::<dynamic_reconfigure::ConfigDescription>(
+        "dynamic_reconfigure/ConfigDescription",
+        "757ce9d44ba8ddd801bb30bc456f946f",
+    );
     check::<diagnostic_msgs::DiagnosticArray>("diagnostic_msgs/DiagnosticArray", "60810da900de1dd6ddd437c3503511da");
 }
 
@@ -53,6 +58,7 @@ fn messages_are_those_of_ros() {
 fn services_are_those_of_ros() {
     check::<nav_msgs::GetMap>("nav_msgs/GetMap", "6cdd0a18e0aff5b0a3ca2326a89b54ff");
     check::<nav_msgs::GetPlan>("nav_msgs/GetPlan", "421c8ea4d21c6c9db7054b4bbdf1e024");
+    check::<dynamic_reconfigure::Reconfigure>("dynamic_reconfigure/Reconfigure", "bb125d226a21982a4a98760418dc2672");
     check::<std_srvs::Empty>("std_srvs/Empty", "d41d8cd98f00b204e9800998ecf8427e");
     check::<std_srvs::Trigger>("std_srvs/Trigger", "937c9679a518e3a18d831e57125ea522");
 }

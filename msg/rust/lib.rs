@@ -32,6 +32,13 @@ rosrust::rosmsg_include!(
     std_srvs / Empty,
     std_srvs / Trigger,
     diagnostic_msgs / DiagnosticArray,
+    dynamic_reconfigure / Config,
+    dynamic_reconfigure / ConfigDescription,
+    dynamic_reconfigure / Reconfigure,
     frontier_explorer / ExplorationStatus,
+    frontier_explorer / ExploreAction,
+    frontier_explorer / ExploreActionFeedback,
+    frontier_explorer / ExploreActionGoal,
+    frontier_explorer / ExploreActionResult,
     frontier_explorer / FrontierArray
 );

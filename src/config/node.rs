@@ -85,6 +85,10 @@ pub struct NodeParams {
     pub back_off: bool,
     /// Corners `[x, y]` in metres of the map frame: only frontiers inside are explored.
     pub region: Option<Vec<[f64; 2]>>,
+    /// Explore at once; where not, `~start` or a goal of the action begins.
+    pub autostart: bool,
+    /// How long goals of others, such as those clicked in RViz, are left to their end, seconds.
+    pub yield_to_others: f64,
     /// Where the map is saved at the end, as map_saver's `-f`; not at all when empty.
     pub map_file: String,
     /// Leave when the exploration has ended.
@@ -134,6 +138,8 @@ impl Default for NodeParams {
             turn_by: TurnBy::default(),
             back_off: true,
             region: None,
+            autostart: true,
+            yield_to_others: 300.0,
             map_file: String::new(),
             exit_when_done: false,
             visualize: true,
@@ -178,6 +184,7 @@ impl NodeParams {
         OutOfRange::unless((0.1..=50.0).contains(&rate), "tick_rate", rate, "within 0.1 to 50 observations a second")?;
         let frequency = self.planner_frequency.unwrap_or(1.0);
         OutOfRange::unless_not_negative("planner_frequency", frequency)?;
+        OutOfRange::unless_not_negative("yield_to_others", self.yield_to_others)?;
         OutOfRange::unless_positive("progress_timeout", self.progress_timeout.unwrap_or(1.0))?;
         for (name, text) in
             [("map_topic", &self.map_topic), ("base_frame", &self.base_frame), ("move_base", &self.move_base)]

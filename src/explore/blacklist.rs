@@ -144,6 +144,13 @@ impl Blacklist {
         }
     }
 
+    /// Forgets everything; returns how many frontiers and places were left alone.
+    pub fn clear(&mut self) -> usize {
+        let left_alone = self.entries.len() + self.visits.len();
+        (self.entries, self.refused, self.visits) = (Vec::new(), Vec::new(), Vec::new());
+        left_alone
+    }
+
     fn entry(&mut self, target: Point) -> &mut Entry {
         let radius_m = self.config.radius_m;
         let known = self.entries.iter().position(|e| nalgebra::distance(&e.target, &target) <= radius_m);

@@ -10,6 +10,7 @@
 mod adjust;
 mod drive;
 mod follow;
+mod home;
 mod notices;
 mod pause;
 mod recover;
@@ -149,7 +150,9 @@ impl Explorer {
     pub fn end_now(&mut self, reason: EndReason, now_s: f64, message: &str) -> End {
         let end = match &self.state {
             State::Ended(end) => end.clone(),
-            State::Returning { end, .. } => end.clone(),
+            State::Returning { end, .. } => {
+                End { message: format!("{}; the way back was left: {message}", end.message), ..end.clone() }
+            }
             _ => End { reason, time_s: now_s, left_behind: self.left_behind, message: message.to_owned() },
         };
         self.state = State::Ended(end.clone());
@@ -160,8 +163,9 @@ impl Explorer {
         let now_s = observation.stamp_s;
         let started_s = *self.started_s.get_or_insert(now_s);
         let limit = self.settings.patience.time_limit_s;
-        if limit.is_some_and(|limit_s| now_s - started_s >= limit_s) {
-            self.end_now(EndReason::TimeLimit, now_s, "the time allowed is over");
+        let is_over = matches!(self.state, State::Ended(_) | State::Returning { .. });
+        if !is_over && limit.is_some_and(|limit_s| now_s - started_s >= limit_s) {
+            self.finish(EndReason::TimeLimit, now_s, "the time allowed is over");
         }
         if let Some(notice) = self.watch.update(observation.map.as_ref(), observation.pose_in_map.as_ref().ok(), now_s)
         {
@@ -243,12 +247,9 @@ impl Explorer {
                     }
                     self.state = State::Ready;
                 }
-                State::Returning { id, end, since_s, .. } => {
-                    let late = now_s - since_s > self.settings.patience.goal_timeout_s;
-                    if !(late || has_ended(observation, *id)) {
-                        return None;
-                    }
-                    self.state = State::Ended(End { time_s: now_s, ..end.clone() });
+                State::Returning { .. } => {
+                    self.way_home(observation);
+                    return None;
                 }
                 State::Ended(_) => return None,
             }

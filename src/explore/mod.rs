@@ -26,7 +26,7 @@ pub use ledger::TimeSpent;
 pub use record::{
     CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position, SeenFrontiers,
 };
-pub use run::{Watcher, run};
+pub use run::{STOPPED, Watcher, run};
 pub use settings::{
     DetectorSettings, ExplorerSettings, FinishSettings, GoalSettings, PatienceSettings, SettingsError, TurnSettings,
 };

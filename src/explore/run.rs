@@ -3,18 +3,21 @@
 use super::{Decision, End, EndReason, Explorer};
 use crate::robot::{Observation, Robot, RobotError};
 
+/// What is said of a run that its user stopped.
+pub const STOPPED: &str = "stopped by the user";
+
 /// Looks on while a run goes on: records, progress bars, publishers.
 pub trait Watcher<R> {
-    /// Called before each step; what was changed meanwhile, by the user or
-    /// by a recording, can be told here.
+    /// Called with every observation, also when nothing is decided on it; what was changed
+    /// meanwhile, by the user or by a recording, can be told here.
     fn before_step(&mut self, _robot: &R, _explorer: &mut Explorer, _observation: &Observation) {}
 
     /// Called after each step, before the command goes out.
     fn after_step(&mut self, robot: &R, explorer: &Explorer, observation: &Observation, decision: &Decision);
 
-    /// Whether the user wants the run to stop.
-    fn stop_requested(&self) -> bool {
-        false
+    /// Why the user wants the run to stop, if so.
+    fn stop_requested(&self) -> Option<String> {
+        None
     }
 }
 
@@ -30,8 +33,8 @@ impl<R, A: Watcher<R>, B: Watcher<R>> Watcher<R> for (A, B) {
         self.1.after_step(robot, explorer, observation, decision);
     }
 
-    fn stop_requested(&self) -> bool {
-        self.0.stop_requested() || self.1.stop_requested()
+    fn stop_requested(&self) -> Option<String> {
+        self.0.stop_requested().or_else(|| self.1.stop_requested())
     }
 }
 
@@ -50,6 +53,14 @@ pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl 
         };
         now_s = observation.stamp_s;
         watcher.before_step(robot, explorer, &observation);
+        if let Some(why) = watcher.stop_requested() {
+            // A robot that cannot be told to hold any more is as good as stopped.
+            let _ = robot.command(&crate::robot::Command::Hold);
+            return explorer.end_now(EndReason::Interrupted, now_s, &why);
+        }
+        if !robot.is_ready() {
+            continue;
+        }
         let decision = explorer.step(&observation);
         watcher.after_step(robot, explorer, &observation, &decision);
         if let Err(error) = robot.command(&decision.command) {
@@ -57,11 +68,6 @@ pub fn run<R: Robot>(robot: &mut R, explorer: &mut Explorer, watcher: &mut impl 
         }
         if let Some(end) = decision.end {
             return end;
-        }
-        if watcher.stop_requested() {
-            // A robot that cannot be told to hold any more is as good as stopped.
-            let _ = robot.command(&crate::robot::Command::Hold);
-            return explorer.end_now(EndReason::Interrupted, now_s, "stopped by the user");
         }
     }
 }

@@ -115,6 +115,8 @@ pub enum State {
         goal: Pose,
         end: End,
         since_s: f64,
+        /// Goals there that failed so far.
+        failures: u32,
     },
     Ended(End),
 }

@@ -25,6 +25,7 @@ mod params;
 pub(crate) mod pilot;
 pub(crate) mod program;
 pub(crate) mod region;
+pub(crate) mod rivals;
 pub(crate) mod robot;
 pub(crate) mod robot_map;
 pub(crate) mod scan_feed;
@@ -33,6 +34,7 @@ pub(crate) mod transforms;
 pub(crate) mod troubles;
 mod turn_goals;
 
+pub use call::{CallError, call};
 pub use embedded_master::{EmbeddedMasterError, start_embedded_master};
 pub use feed::Feed;
 pub use log::{Level, Log};

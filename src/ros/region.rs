@@ -2,6 +2,7 @@
 //! the first one closes the polygon.
 
 use crate::geometry::{Point, Polygon};
+use std::sync::{Mutex, PoisonError};
 
 /// A click this near to the first corner closes the polygon, metres.
 const CLOSE_M: f64 = 0.5;
@@ -42,6 +43,13 @@ impl RegionDrawing {
             Err(error) => Clicked::Refused(error.to_string()),
         }
     }
+}
+
+/// Whether a message is in the map's frame; an empty name is taken for it.
+pub fn is_in_frame(map_frame: &Mutex<String>, frame: &str) -> bool {
+    let map = map_frame.lock().unwrap_or_else(PoisonError::into_inner);
+    let (map, frame) = (crate::tf::frame_name(&map), crate::tf::frame_name(frame));
+    map.is_empty() || frame.is_empty() || map == frame
 }
 
 #[cfg(test)]

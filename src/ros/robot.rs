@@ -36,6 +36,8 @@ pub struct RosRobotConfig {
     pub back_off: bool,
     /// Ask move_base to clear its costmaps when a goal failed.
     pub clear_costmaps: bool,
+    /// How long goals of others are left to their end, seconds.
+    pub yield_s: f64,
 }
 
 /// The parts of the robot that are connected already.
@@ -78,6 +80,8 @@ pub struct RosRobot {
     is_lost: bool,
     /// A map and the robot's place in it have been known.
     has_begun: bool,
+    /// The last observation is one to decide on.
+    is_ready: bool,
     /// The last goal that was sent, and how many different ones were.
     sent: (CommandId, usize),
 }
@@ -100,6 +104,7 @@ impl RosRobot {
             pose: None,
             is_lost: false,
             has_begun: false,
+            is_ready: false,
             sent: (0, 0),
         }
     }
@@ -120,6 +125,12 @@ impl RosRobot {
     #[must_use]
     pub const fn goals_sent(&self) -> usize {
         self.sent.1
+    }
+
+    /// Whether a map and the robot's place in it have been known.
+    #[must_use]
+    pub const fn has_begun(&self) -> bool {
+        self.has_begun
     }
 
     /// The path that is followed, where we drive ourselves.
@@ -145,19 +156,12 @@ impl RosRobot {
 }
 
 impl Robot for RosRobot {
-    /// The first observation waits for a map and for the robot's place in it, however
-    /// long it takes: nodes of a launch file begin in any order.
     fn observe(&mut self) -> Result<Observation, RobotError> {
-        let (mut ros_s, mut pose_in_map);
-        loop {
-            ros_s = self.wait()?;
-            self.take_map();
-            pose_in_map = self.locate(ros_s);
-            self.has_begun |= self.parts.map.received().is_some() && pose_in_map.is_ok();
-            if self.has_begun {
-                break;
-            }
-        }
+        let (ros_s, is_tick) = self.wait()?;
+        self.take_map();
+        let pose_in_map = self.locate(ros_s);
+        self.has_begun |= self.parts.map.received().is_some() && pose_in_map.is_ok();
+        self.is_ready = is_tick && self.has_begun;
         let navigation = self.navigation();
         self.recover(&navigation);
         Ok(Observation {
@@ -167,6 +171,12 @@ impl Robot for RosRobot {
             scan: self.scan(),
             navigation,
         })
+    }
+
+    /// The first map and the robot's place in it are waited for however long it takes: nodes of
+    /// a launch file begin in any order.
+    fn is_ready(&self) -> bool {
+        self.is_ready
     }
 
     fn command(&mut self, command: &Command) -> Result<(), RobotError> {

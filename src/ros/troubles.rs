@@ -27,6 +27,8 @@ pub enum Trouble {
     Scan,
     /// Nobody drives to goals.
     MoveBase,
+    /// Somebody else's goal is under way.
+    Stranger,
     /// The map cannot be saved.
     MapFile,
 }
@@ -79,6 +81,12 @@ impl Troubles {
         let entries = self.lock();
         let worst = entries.values().map(|entry| entry.level).max()?;
         entries.values().find(|entry| entry.level == worst).map(|entry| (worst, entry.text.clone()))
+    }
+
+    /// All that is wrong now, the most urgent first.
+    #[must_use]
+    pub fn all(&self) -> Vec<String> {
+        self.lock().values().map(|entry| entry.text.clone()).collect()
     }
 
     /// What is said of one trouble, while it lasts.

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
+mod controls;
 mod fake_publisher;
 mod peers;
 mod relay;
@@ -77,7 +78,7 @@ fn main() {
 }
 
 fn all() -> impl Iterator<Item = &'static Test> {
-    TESTS.iter().chain(senses::TESTS).chain(peers::TESTS)
+    TESTS.iter().chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {
@@ -119,7 +120,10 @@ impl World {
     fn simulate(&self, more: &[&str]) -> Process {
         let world = format!("_world:={}", self.house.display());
         let speed = format!("_speed:={SPEED}");
-        let mut args = vec![world.as_str(), speed.as_str(), "_start:=[2.0, 1.7]"];
+        let mut args = vec![world.as_str(), "_start:=[2.0, 1.7]"];
+        if !more.iter().any(|argument| argument.starts_with("_speed:=")) {
+            args.push(&speed);
+        }
         args.extend(more);
         Process::start(env!("CARGO_BIN_EXE_sim_node"), &args, self.folder.join("sim.log"))
     }

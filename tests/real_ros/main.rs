@@ -31,6 +31,7 @@ const TESTS: &[Test] = &[
     ("rosbag_records_a_run", rosbag),
     ("rosbag_reads_and_plays_our_bags", our_bags),
     ("catkin_builds_and_roslaunch_runs_the_demo", demo_launch),
+    ("a_mission_script_orders_an_exploration", mission),
     ("the_launch_file_of_explore_lite_works", explore_lite_launch),
     ("a_killed_master_does_not_end_the_exploration", killed_master),
     ("message_definitions_are_those_of_the_installation", messages),
@@ -314,6 +315,30 @@ fn demo_launch(stage: &Stage) {
     assert!(!nodes.contains("explore") && !nodes.contains("sim"), "nothing is left behind: {nodes}");
 }
 
+fn mission(stage: &Stage) {
+    let _sim = stage.sim("_slam:=perfect _driver:=navigator");
+    let mut explore = stage.explore("_autostart:=false");
+    explore.expect_log("waiting to be started", SOON);
+    let script = source("examples/mission.py");
+    let orders = "0,0 3.7,0 3.7,3.5 0,3.5 --errand 1.0,1.2 --time-limit 300";
+    let command = format!("/usr/bin/python3 {} {orders}", script.display());
+    let mut mission = stage.start("mission", &with_workspace("devel", &command));
+    mission.expect_code(0, DEADLINE);
+    let log = mission.log();
+    for said in ["pause: paused: the robot stands", "the errand is done", "resume: going on", "back at the start"] {
+        assert!(log.contains(said), "{said:?} is not in:\n{log}{}", explore.log());
+    }
+    assert!(log.contains("outside_region: ") && log.contains("map.yaml"), "{log}");
+    // What the real roscore and rospy know of the services.
+    let service = |name: &str| stage.output(&format!("rosservice call /explore/{name}"));
+    assert!(service("stop").contains("nothing to stop: the exploration has ended"));
+    assert!(service("explain").contains("last decision: "));
+    let action = stage.output(&with_workspace("devel", "rostopic type /explore/explore/goal"));
+    assert_eq!(action.trim(), "frontier_explorer/ExploreActionGoal");
+    explore.signal("INT");
+    explore.expect_code(0, SOON);
+}
+
 fn explore_lite_launch(stage: &Stage) {
     let _sim = stage.sim("");
     let file = source("tests/real_ros/explore_lite.launch");
@@ -341,6 +366,8 @@ fn messages(stage: &Stage) {
         "actionlib_msgs/GoalStatusArray",
         "tf2_msgs/TFMessage",
         "visualization_msgs/MarkerArray",
+        "dynamic_reconfigure/Config",
+        "dynamic_reconfigure/ConfigDescription",
     ] {
         let md5 = stage.output(&format!("rosmsg md5 {name}"));
         let tests = std::fs::read_to_string(source("tests/messages.rs")).unwrap();

@@ -17,6 +17,11 @@ impl Explorer {
         self.settings.region.as_ref()
     }
 
+    /// Forgets what failed and what was visited in vain; returns how many places that were.
+    pub fn clear_blacklist(&mut self) -> usize {
+        self.blacklist.clear()
+    }
+
     /// Chooses goals by another strategy than the settings name, such as one of one's own.
     pub fn set_selector(&mut self, selector: Box<dyn GoalSelector>) {
         self.lookout.set_selector(selector);

@@ -109,9 +109,7 @@ impl Explorer {
     pub(super) fn finish(&mut self, reason: EndReason, now_s: f64, message: &str) {
         let end = End { reason, time_s: now_s, left_behind: self.left_behind, message: message.to_owned() };
         self.state = match self.start_pose {
-            Some(goal) if self.settings.return_to_start => {
-                State::Returning { id: self.next_id(), goal, end, since_s: now_s }
-            }
+            Some(goal) if self.settings.return_to_start => return self.drive_home(goal, end, now_s, 0),
             _ => State::Ended(end),
         };
     }

@@ -73,6 +73,7 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
         turn_by_goals: params.turn_by == TurnBy::MoveBase,
         back_off: params.back_off,
         clear_costmaps: params.clear_costmaps,
+        yield_s: params.yield_to_others,
     };
     let parts = Connections {
         map: RobotMap::new(map, costmap, explorer.thresholds, robot.inflation()),

@@ -1,138 +1,106 @@
-//! What users may do while the node runs: rest and go on, draw a region, save the map,
-//! stop.
+//! What users may ask for while the node runs: the services and topics that hand it in at the
+//! desk.
 
 use super::connect::Connected;
+use super::desk::{Control, Desk, Request};
 use super::saving::save_as;
 use super::settings::{ExploreNodeError, Settings};
 use crate::geometry::{Point, Polygon};
-use crate::planning::GlobalPlanner;
-use crate::ros::move_base::AskingPlanner;
+use crate::ros::log::Log;
 use crate::ros::msg::geometry_msgs::{PointStamped, PolygonStamped};
 use crate::ros::msg::std_msgs::Bool;
 use crate::ros::msg::std_srvs::{Trigger, TriggerRes};
-use crate::ros::region::{Clicked, RegionDrawing};
+use crate::ros::region::{Clicked, RegionDrawing, is_in_frame};
 use crate::ros::{Feed, Node, Service};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// Points and commands come seldom: so often it is looked whether all who tell them are met.
 const LOOK: Duration = Duration::from_secs(60);
+/// So long a service waits for the thread that explores.
+const ANSWER_WITHIN: Duration = Duration::from_secs(5);
 
-/// What a user asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Request {
-    /// Explore inside this region, or everywhere.
-    Region(Option<Polygon>),
-    /// Explore again.
-    Resume,
-}
+/// The services by which an operator controls the exploration.
+const SERVICES: [(&str, Control); 7] = [
+    ("~start", Control::Start),
+    ("~pause", Control::Pause),
+    ("~resume", Control::Resume),
+    ("~stop", Control::Stop),
+    ("~return_home", Control::ReturnHome),
+    ("~clear_blacklist", Control::ClearBlacklist),
+    ("~explain", Control::Explain),
+];
 
-/// The topics and services that take requests.
+/// The topics and services that take requests, as long as this lives.
 pub struct Controls {
-    requests: Arc<Mutex<Vec<Request>>>,
-    stop: Arc<AtomicBool>,
-    map_frame: Arc<Mutex<String>>,
     _feeds: Vec<Feed>,
-    _services: [Service; 2],
+    _services: Vec<Service>,
 }
 
 impl Controls {
-    /// Begins to take requests: `explore/resume` (explore_lite), RViz's
-    /// `clicked_point`, `~set_region`, and the services `~save_map` and `~stop`.
+    /// Begins to take requests: the services, `explore/resume` (explore_lite), RViz's
+    /// `clicked_point`, and `~set_region`.
     ///
     /// # Errors
     /// [`ExploreNodeError`] when a service cannot be offered.
-    pub fn listen(node: &Node, settings: &Settings, connected: &Connected) -> Result<Self, ExploreNodeError> {
-        let requests = Arc::<Mutex<Vec<Request>>>::default();
-        let stop = Arc::new(AtomicBool::new(false));
+    pub fn listen(
+        node: &Node,
+        settings: &Settings,
+        connected: &Connected,
+        desk: &Desk,
+    ) -> Result<Self, ExploreNodeError> {
         let feeds = vec![
-            listen_to_resume(node, &requests, connected),
-            listen_to_clicks(node, &requests, connected),
-            listen_to_regions(node, &requests, connected),
+            listen_to_resume(node, desk),
+            listen_to_clicks(node, desk, connected),
+            listen_to_regions(node, desk, connected),
         ];
-        let (maps, map_file, log) = (connected.maps.clone(), settings.params.map_file.clone(), node.log().clone());
-        let path = if map_file.is_empty() { "map".to_owned() } else { map_file };
-        let save = node.serve::<Trigger>("~save_map", move |_| {
-            let saved = match maps.newest() {
-                Some(map) => save_as(&path, &map).map(|p| p.yaml.display().to_string()).map_err(|e| e.to_string()),
-                None => Err("no map has come yet".to_owned()),
-            };
-            let (success, message) = match saved {
-                Ok(file) => (true, file),
-                Err(why) => (false, why),
-            };
-            log.info(format_args!("~save_map: {message}"));
-            Ok(TriggerRes { success, message })
-        })?;
-        let (stopped, paused) = (Arc::clone(&stop), Arc::clone(&connected.paused));
-        let stop_service = node.serve::<Trigger>("~stop", move |_| {
-            stopped.store(true, Ordering::Relaxed);
-            paused.store(false, Ordering::Relaxed);
-            Ok(TriggerRes { success: true, message: "the exploration ends".to_owned() })
-        })?;
-        let map_frame = Arc::clone(&connected.map_frame);
-        Ok(Self { requests, stop, map_frame, _feeds: feeds, _services: [save, stop_service] })
-    }
-
-    /// The newest region that was asked for since the last call.
-    pub fn new_region(&self) -> Option<Option<Polygon>> {
-        let requests = std::mem::take(&mut *self.requests.lock().unwrap_or_else(PoisonError::into_inner));
-        requests.into_iter().rev().find_map(|request| match request {
-            Request::Region(region) => Some(region),
-            Request::Resume => None,
-        })
-    }
-
-    /// Whether the user wants the run to end; asked once for each time.
-    pub fn stop_requested(&self) -> bool {
-        self.stop.swap(false, Ordering::Relaxed)
-    }
-
-    /// Waits until another run is asked for; `None` when the node is told to stop.
-    pub fn wait_for_another_run(&self, node: &Node) -> Option<Request> {
-        node.log().info("ready to explore again: publish true on explore/resume, or draw a region");
-        let forever = Duration::MAX;
-        let mut request = None;
-        node.wait_until(forever, || {
-            request = self.requests.lock().unwrap_or_else(PoisonError::into_inner).pop();
-            request.is_some()
-        });
-        request
-    }
-
-    /// The planner that asks move_base, where the settings want it.
-    pub fn asking_planner(&self, node: &Node, settings: &Settings) -> Option<Box<dyn GlobalPlanner>> {
-        let Settings { params, preset, robot } = settings;
-        let wanted = params.check_with_make_plan && preset.navigation.drive == crate::config::Drive::MoveBase;
-        wanted.then(|| {
-            let own = preset.explorer.planner.build(&robot.body());
-            Box::new(AskingPlanner::new(node, &params.move_base, Arc::clone(&self.map_frame), own)) as Box<_>
-        })
-    }
-}
-
-fn push(requests: &Mutex<Vec<Request>>, request: Request) {
-    requests.lock().unwrap_or_else(PoisonError::into_inner).push(request);
-}
-
-fn listen_to_resume(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
-    let (requests, paused, bell) = (Arc::clone(requests), Arc::clone(&connected.paused), Arc::clone(&connected.bell));
-    let log = node.log().clone();
-    Feed::listen_seldom(node, "explore/resume", 5, LOOK, move |message: Bool, _| {
-        let was_paused = paused.swap(!message.data, Ordering::Relaxed);
-        match (was_paused, message.data) {
-            (true, true) => log.info("going on"),
-            (false, false) => log.info("resting: publish true on explore/resume to go on"),
-            (false, true) => push(&requests, Request::Resume),
-            (true, false) => {}
+        let mut services = vec![serve_save_map(node, settings, connected)?];
+        for (name, control) in SERVICES {
+            services.push(serve(node, name, control, desk)?);
         }
-        bell.ring();
+        Ok(Self { _feeds: feeds, _services: services })
+    }
+}
+
+/// Offers one control as a service.
+fn serve(node: &Node, name: &'static str, control: Control, desk: &Desk) -> Result<Service, ExploreNodeError> {
+    let (desk, log) = (desk.clone(), node.log().clone());
+    Ok(node.serve::<Trigger>(name, move |_| {
+        let answer = desk.ask(Request::Control(control), ANSWER_WITHIN);
+        if control != Control::Explain {
+            log.info(format_args!("{name}: {}", answer.message));
+        }
+        Ok(TriggerRes { success: answer.success, message: answer.message })
+    })?)
+}
+
+/// Saves the newest map at once, whatever the exploration is about.
+fn serve_save_map(node: &Node, settings: &Settings, connected: &Connected) -> Result<Service, ExploreNodeError> {
+    let (maps, map_file, log) = (connected.maps.clone(), settings.params.map_file.clone(), node.log().clone());
+    let path = if map_file.is_empty() { "map".to_owned() } else { map_file };
+    Ok(node.serve::<Trigger>("~save_map", move |_| {
+        let saved = match maps.newest() {
+            Some(map) => save_as(&path, &map).map(|p| p.yaml.display().to_string()).map_err(|e| e.to_string()),
+            None => Err("no map has come yet".to_owned()),
+        };
+        let (success, message) = match saved {
+            Ok(file) => (true, file),
+            Err(why) => (false, why),
+        };
+        log.info(format_args!("~save_map: {message}"));
+        Ok(TriggerRes { success, message })
+    })?)
+}
+
+fn listen_to_resume(node: &Node, desk: &Desk) -> Feed {
+    let desk = desk.clone();
+    Feed::listen_seldom(node, "explore/resume", 5, LOOK, move |message: Bool, _| {
+        desk.hand_in(Request::Control(if message.data { Control::Resume } else { Control::Pause }));
     })
 }
 
-fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
-    let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
+fn listen_to_clicks(node: &Node, desk: &Desk, connected: &Connected) -> Feed {
+    let (desk, frame, log) = (desk.clone(), Arc::clone(&connected.map_frame), node.log().clone());
     let drawing = Mutex::new(RegionDrawing::default());
     Feed::listen_seldom(node, "clicked_point", 10, LOOK, move |message: PointStamped, _| {
         if !is_in_frame(&frame, &message.header.frame_id) {
@@ -143,17 +111,19 @@ fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected:
             drawing.lock().unwrap_or_else(PoisonError::into_inner).click(Point::new(message.point.x, message.point.y));
         match clicked {
             Clicked::Corner(count) => log.info(format_args!("corner {count} of the region; near the first closes it")),
-            Clicked::Closed(region) => {
-                log.info(format_args!("a region of {} corners is explored from now on", region.corners().len()));
-                push(&requests, Request::Region(Some(region)));
-            }
+            Clicked::Closed(region) => explore_region(&desk, &log, region),
             Clicked::Refused(why) => log.warn(format_args!("the clicked corners make no region: {why}")),
         }
     })
 }
 
-fn listen_to_regions(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
-    let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
+fn explore_region(desk: &Desk, log: &Log, region: Polygon) {
+    log.info(format_args!("a region of {} corners is explored from now on", region.corners().len()));
+    desk.hand_in(Request::Region(Some(region)));
+}
+
+fn listen_to_regions(node: &Node, desk: &Desk, connected: &Connected) -> Feed {
+    let (desk, frame, log) = (desk.clone(), Arc::clone(&connected.map_frame), node.log().clone());
     Feed::listen_seldom(node, "~set_region", 5, LOOK, move |message: PolygonStamped, _| {
         if !is_in_frame(&frame, &message.header.frame_id) {
             log.warn(format_args!("a region in the frame {}: must be in the map's", message.header.frame_id));
@@ -163,19 +133,12 @@ fn listen_to_regions(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected
             message.polygon.points.iter().map(|p| Point::new(f64::from(p.x), f64::from(p.y))).collect();
         if corners.is_empty() {
             log.info("everything is explored from now on");
-            push(&requests, Request::Region(None));
+            desk.hand_in(Request::Region(None));
             return;
         }
         match Polygon::new(corners) {
-            Ok(region) => push(&requests, Request::Region(Some(region))),
+            Ok(region) => explore_region(&desk, &log, region),
             Err(error) => log.warn(format_args!("~set_region: {error}")),
         }
     })
-}
-
-/// Whether a message is in the map's frame; an empty name is taken for it.
-fn is_in_frame(map_frame: &Mutex<String>, frame: &str) -> bool {
-    let map = map_frame.lock().unwrap_or_else(PoisonError::into_inner);
-    let (map, frame) = (crate::tf::frame_name(&map), crate::tf::frame_name(frame));
-    map.is_empty() || frame.is_empty() || map == frame
 }

@@ -1,27 +1,39 @@
 //! `explore_node`: the papers' exploration node in a move_base-era stack.
 
+mod action;
 mod connect;
 mod controls;
+mod desk;
+mod explain;
+mod operator;
 mod outputs;
+mod rules;
 mod saving;
 mod settings;
 mod watcher;
 
 pub use settings::ExploreNodeError;
 
-use crate::config::{BUILTIN_ROBOTS, Preset};
+use crate::config::{BUILTIN_ROBOTS, Drive, Preset};
 use crate::explore::{End, Explorer, run as explore};
-use crate::geometry::Polygon;
+use crate::geometry::Pose;
+use crate::planning::GlobalPlanner;
 use crate::ros::display::status_sentence;
+use crate::ros::move_base::AskingPlanner;
 use crate::ros::program::{has_helped, run_program};
+use crate::ros::rivals::Rivals;
 use crate::ros::{Node, RosRobot, stop};
-use connect::connect;
-use controls::{Controls, Request};
+use action::ExploreAction;
+use connect::{Connected, connect};
+use controls::Controls;
+use desk::Desk;
+use operator::{Matter, Next, Operator};
 use outputs::Outputs;
+use rules::Stage;
 use saving::MapSaver;
 use settings::Settings;
 use std::sync::Arc;
-use watcher::NodeWatcher;
+use watcher::{Attended, NodeWatcher};
 
 /// Runs the node until it is told to stop, or, with `~exit_when_done`, until the
 /// exploration has ended. Returns the exit code: 0 done, 1 failed or the map was not saved,
@@ -46,6 +58,7 @@ fn help() -> String {
          \x20 _base_frame:=base_link       the robot's frame\n\
          \x20 _move_base:=move_base        the action server\n\
          \x20 _map_file:=FILE              save the map there at the end\n\
+         \x20 _autostart:=false            wait for ~start, or a goal of the action ~explore\n\
          \x20 _exit_when_done:=true        leave at the end: 0 done, 1 failed, 3 frontiers were left\n\
          \x20 _region:=[[X, Y], ...]       explore inside a polygon alone, metres in the map's frame\n\
          \x20 _explorer:={{...}}             any setting of `frontier explore --print-config`\n\n\
@@ -64,17 +77,22 @@ pub fn explore_with(node: &Node) -> Result<u8, ExploreNodeError> {
 /// Explores, and tells the exit code when all is done but to give back what is registered.
 fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeError> {
     let settings = Settings::read(node)?;
+    let before = refuse_rivals(node, &settings)?;
     let (mut robot, mut connected) = connect(node, &settings)?;
     let Settings { params, preset, .. } = &settings;
     let saver = Arc::new(MapSaver::new(&params.map_file, connected.maps.clone(), node.log(), &connected.troubles));
     saver.check();
     let outputs = Outputs::offer(node, &settings, &connected, &saver)?;
-    let controls = Controls::listen(node, &settings, &connected)?;
+    let desk = Desk::new(&connected.bell);
+    let action = ExploreAction::offer(node, &desk, &connected, Box::new(outputs.teller()))?;
+    let _controls = Controls::listen(node, &settings, &connected, &desk)?;
+    let mut operator = Operator::new(node, desk, &connected, action, preset.explorer.region.clone());
     let (cancel, last_saver) = (std::mem::replace(&mut connected.cancel, Box::new(|| ())), Arc::clone(&saver));
     stop::set_will(move || {
         cancel();
-        u8::from(!last_saver.save())
+        u8::from(last_saver.save().is_err())
     });
+    before.refuse_those_who_came_since()?;
     node.log().info(format_args!(
         "{}: preset {}, robot {}, map on {}, goals to {}",
         node.name(),
@@ -83,57 +101,135 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
         params.map_topic,
         if connected.drives_itself { "our own controller" } else { &params.move_base }
     ));
-    let mut region = preset.explorer.region.clone();
+    if params.autostart {
+        operator.begin();
+    } else {
+        outputs.show_idle();
+        node.log().info("waiting to be started: call ~start, or send a goal to the action ~explore");
+    }
+    let mut last: Option<Exploration<'_>> = None;
     loop {
-        let (end, last_region) = run_once(node, &settings, &mut robot, &outputs, &controls, region)?;
-        region = last_region;
-        let is_saved = saver.save();
-        if !is_saved {
+        let Some(next) = wait_for_work(node, &mut operator, last.as_mut(), &outputs) else {
+            let code = u8::from(saver.save().is_err() || node.has_failed());
+            settle(code);
+            return Ok(code);
+        };
+        let exploration = match (next, last.take()) {
+            (Next::GoHome, Some(mut earlier)) => {
+                let now_s = earlier.watcher.now_s();
+                earlier.explorer.return_home(now_s, "sent home by the user");
+                earlier
+            }
+            (_, earlier) => {
+                let home = earlier.and_then(|earlier| earlier.explorer.start_pose());
+                Exploration::begin(node, &settings, &connected, &outputs, &operator, home)?
+            }
+        };
+        let exploration = last.insert(exploration);
+        let end = exploration.run(node, &mut robot, &mut operator);
+        let saved = match operator.order().filter(|order| !order.map_file.is_empty()) {
+            Some(order) => saver.save_elsewhere(&order.map_file).map(Some),
+            None => saver.save(),
+        };
+        let is_saved = saved.is_ok();
+        if let Err(why) = &saved {
+            node.log().error(why);
             outputs.tell_status();
         }
+        operator.ended(&end, &outputs.status(), saved);
         let code = match () {
             () if node.has_failed() || !is_saved => 1,
             () if !node.is_ok() || end.reason.is_success() => 0,
             () => 3,
         };
-        if params.exit_when_done || !node.is_ok() {
+        if params.exit_when_done && !operator.has_work() || !node.is_ok() {
             settle(code);
             return Ok(code);
         }
-        match controls.wait_for_another_run(node) {
-            Some(Request::Region(new)) => region = new,
-            Some(Request::Resume) => {}
-            None => {
-                let code = u8::from(!saver.save() || node.has_failed());
-                settle(code);
-                return Ok(code);
-            }
-        }
+        node.log().info("ready to explore again: call ~start, publish true on explore/resume, or draw a region");
     }
 }
 
-/// One exploration, from the first map to the saved one.
-fn run_once(
+/// Waits until there is something to do; `None` when the node is told to stop.
+fn wait_for_work(
     node: &Node,
-    settings: &Settings,
-    robot: &mut RosRobot,
+    operator: &mut Operator,
+    mut last: Option<&mut Exploration<'_>>,
     outputs: &Outputs,
-    controls: &Controls,
-    region: Option<Polygon>,
-) -> Result<(End, Option<Polygon>), ExploreNodeError> {
-    let Settings { preset, robot: body, .. } = settings;
-    let mut explorer = Explorer::new(preset.explorer.clone(), &body.traits())?;
-    explorer.set_region(region);
-    if let Some(planner) = controls.asking_planner(node, settings) {
-        explorer.set_planner(planner);
+) -> Option<Next> {
+    operator.wait_for_work(node, |operator| {
+        let stage = if last.is_some() { Stage::Ended } else { Stage::Idle };
+        let (explorer, watcher) = match &mut last {
+            Some(Exploration { explorer, watcher }) => (Some(explorer), Some(&*watcher)),
+            None => (None, None),
+        };
+        let explain = || watcher.map_or_else(|| outputs.status().message, NodeWatcher::explanation);
+        let now_s = watcher.map_or(0.0, NodeWatcher::now_s);
+        operator.serve(&mut Matter { stage, explorer, now_s, explain: &explain });
+    })
+}
+
+/// One exploration, from the first map to its end, and to the way back.
+struct Exploration<'a> {
+    explorer: Explorer,
+    watcher: NodeWatcher<'a>,
+}
+
+impl<'a> Exploration<'a> {
+    /// A new one, as the operator wants it now.
+    fn begin(
+        node: &'a Node,
+        settings: &Settings,
+        connected: &Connected,
+        outputs: &'a Outputs,
+        operator: &Operator,
+        home: Option<Pose>,
+    ) -> Result<Self, ExploreNodeError> {
+        let Settings { preset, robot: body, .. } = settings;
+        let mut wanted = preset.explorer.clone();
+        if let Some(order) = operator.order() {
+            wanted.patience.time_limit_s = order.time_limit_s.or(wanted.patience.time_limit_s);
+            wanted.return_to_start |= order.return_home;
+        }
+        let mut explorer = Explorer::new(wanted, &body.traits())?;
+        explorer.set_region(operator.region());
+        if let Some(home) = home {
+            explorer.set_start_pose(home);
+        }
+        if let Some(planner) = asking_planner(node, settings, connected) {
+            explorer.set_planner(planner);
+        }
+        Ok(Self { explorer, watcher: NodeWatcher::new(node, outputs, preset.explorer.thresholds) })
     }
-    let mut watcher = NodeWatcher::new(node, outputs, controls, settings.preset.explorer.thresholds);
-    let end = explore(robot, &mut explorer, &mut watcher);
-    robot.stop();
-    let status = watcher.finish(robot, &explorer, &end);
-    node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
-    tell_latency(node, robot.latencies_ms());
-    Ok((end, explorer.region().cloned()))
+
+    /// Explores, or goes on with it.
+    fn run(&mut self, node: &Node, robot: &mut RosRobot, operator: &mut Operator) -> End {
+        let Self { explorer, watcher } = self;
+        watcher.begin(explorer);
+        let end = explore(robot, explorer, &mut Attended { operator, watcher });
+        robot.stop();
+        let status = watcher.finish(robot, explorer, &end);
+        node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
+        tell_latency(node, robot.latencies_ms());
+        end
+    }
+}
+
+/// The planner that asks move_base, where the settings want it.
+fn asking_planner(node: &Node, settings: &Settings, connected: &Connected) -> Option<Box<dyn GlobalPlanner>> {
+    let Settings { params, preset, robot } = settings;
+    let wanted = params.check_with_make_plan && preset.navigation.drive == Drive::MoveBase;
+    wanted.then(|| {
+        let own = preset.explorer.planner.build(&robot.body());
+        Box::new(AskingPlanner::new(node, &params.move_base, Arc::clone(&connected.map_frame), own)) as Box<_>
+    })
+}
+
+/// Refuses to drive a robot that another explorer drives; returns who was there.
+fn refuse_rivals<'a>(node: &'a Node, settings: &Settings) -> Result<Rivals<'a>, ExploreNodeError> {
+    let rivals = Rivals::of(node, &format!("{}/goal", settings.params.move_base));
+    rivals.refuse_all()?;
+    Ok(rivals)
 }
 
 /// Says how long it took from maps to the goals that they led to.

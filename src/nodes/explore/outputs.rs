@@ -16,7 +16,7 @@ use crate::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
 use crate::ros::msg::geometry_msgs::{PolygonStamped, PoseStamped};
 use crate::ros::msg::nav_msgs;
 use crate::ros::msg::visualization_msgs::MarkerArray;
-use crate::ros::troubles::Troubles;
+use crate::ros::troubles::{Trouble, Troubles};
 use crate::ros::{Node, Publisher};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -124,9 +124,36 @@ impl Outputs {
         let _ = self.region.send(region_message(explorer.region(), frame, self.node.now_s()));
     }
 
-    /// Sets the status that is told once a second.
+    /// Says that nothing was started so far.
+    pub fn show_idle(&self) {
+        let mut status = self.status.lock().unwrap_or_else(PoisonError::into_inner);
+        status.phase = ExplorationStatus::IDLE;
+        "not started: call ~start, or send a goal to the action ~explore".clone_into(&mut status.message);
+    }
+
+    /// The status as it was last told.
+    pub fn status(&self) -> ExplorationStatus {
+        self.teller.fresh().0
+    }
+
+    /// The same for another thread.
+    pub fn teller(&self) -> impl Fn() -> ExplorationStatus + Send + Sync + 'static {
+        let teller = Arc::clone(&self.teller);
+        move || teller.fresh().0
+    }
+
+    /// All that is wrong now.
+    pub fn troubles(&self) -> Vec<String> {
+        self.teller.troubles.all()
+    }
+
+    /// Sets the status that is told once a second, and at once where its phase is another one.
     pub fn set_status(&self, new: ExplorationStatus) {
-        *self.status.lock().unwrap_or_else(PoisonError::into_inner) = new;
+        let phase = new.phase;
+        let old = std::mem::replace(&mut *self.status.lock().unwrap_or_else(PoisonError::into_inner), new);
+        if old.phase != phase {
+            self.tell_status();
+        }
     }
 
     /// Tells the status at once.
@@ -149,6 +176,14 @@ struct Teller {
 impl Teller {
     /// Tells the status with what is wrong now, and returns it.
     fn tell(&self) -> ExplorationStatus {
+        let (fresh, worst) = self.fresh();
+        let _ = self.health.send(diagnostics(self.node.name(), &fresh, worst));
+        let _ = self.now.send(fresh.clone());
+        fresh
+    }
+
+    /// The status with what is wrong now, and how grave that is.
+    fn fresh(&self) -> (ExplorationStatus, Option<Level>) {
         let mut fresh = self.status.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let ended = fresh.phase == ExplorationStatus::ENDED;
         fresh.header.stamp = self.node.stamp();
@@ -158,13 +193,14 @@ impl Teller {
         if let Some((_, text)) = &worst {
             fresh.message = if ended { format!("{}; {text}", fresh.message) } else { text.clone() };
         }
-        if self.paused.load(Ordering::Relaxed) && !ended {
+        let is_under_way = !(ended || fresh.phase == ExplorationStatus::IDLE);
+        if self.paused.load(Ordering::Relaxed) && is_under_way {
             fresh.phase = ExplorationStatus::PAUSED;
-            "resting: publish true on explore/resume to go on".clone_into(&mut fresh.message);
+            "resting: call ~resume, or publish true on explore/resume, to go on".clone_into(&mut fresh.message);
+        } else if let (Some(text), true) = (self.troubles.text(Trouble::Stranger), is_under_way) {
+            (fresh.phase, fresh.message) = (ExplorationStatus::YIELDING, text);
         }
-        let _ = self.health.send(diagnostics(self.node.name(), &fresh, worst.map(|(level, _)| level)));
-        let _ = self.now.send(fresh.clone());
-        fresh
+        (fresh, worst.map(|(level, _)| level))
     }
 }
 
@@ -179,7 +215,7 @@ fn tell(teller: &Teller, saver: &MapSaver) {
         }
         next = Instant::now() + STATUS_PERIOD;
         let status = teller.tell();
-        if status.phase == ExplorationStatus::ENDED {
+        if matches!(status.phase, ExplorationStatus::ENDED | ExplorationStatus::IDLE) {
             continue;
         }
         teller.troubles.repeat();

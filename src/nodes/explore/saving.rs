@@ -15,8 +15,8 @@ pub struct MapSaver {
     maps: MapReader,
     log: Log,
     troubles: Troubles,
-    /// The version of the map that was saved last; held while one is being saved.
-    saved: Mutex<Option<u64>>,
+    /// The version of the map that was saved last, and its file; held while one is being saved.
+    saved: Mutex<Option<(u64, String)>>,
 }
 
 impl MapSaver {
@@ -49,32 +49,44 @@ impl MapSaver {
         }
     }
 
-    /// Saves the newest map, unless it is saved already; whether nothing is lost.
-    pub fn save(&self) -> bool {
+    /// Saves the newest map, unless it is saved already. Returns the YAML file, if one is
+    /// wanted.
+    ///
+    /// # Errors
+    /// A sentence when the map is lost.
+    pub fn save(&self) -> Result<Option<String>, String> {
         if self.file.is_empty() {
-            return true;
+            return Ok(None);
         }
         let mut saved = self.saved.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(map) = self.maps.newest() else {
-            return self.fail(&format!("no map has come that could be saved as {}", self.file));
+        let (Some((version, file)), Some(map)) = (&*saved, self.maps.newest()) else {
+            return self.write(&mut saved);
         };
-        if *saved == Some(map.changes.version()) {
-            return true;
-        }
-        match save_as(&self.file, &map) {
-            Ok(paths) => {
-                *saved = Some(map.changes.version());
-                self.troubles.clear(Trouble::MapFile);
-                self.log.info(format_args!("saved {} and {}", paths.yaml.display(), paths.image.display()));
-                true
-            }
-            Err(error) => self.fail(&format!("the map is not saved: {error}")),
-        }
+        if *version == map.changes.version() { Ok(Some(file.clone())) } else { self.write(&mut saved) }
     }
 
-    fn fail(&self, why: &str) -> bool {
-        self.troubles.report(Trouble::MapFile, Level::Error, why);
-        false
+    /// Saves the newest map in another place, as an order wants it; returns the YAML file.
+    ///
+    /// # Errors
+    /// A sentence when it cannot be saved.
+    pub fn save_elsewhere(&self, file: &str) -> Result<String, String> {
+        let map = self.maps.newest().ok_or_else(|| format!("no map has come that could be saved as {file}"))?;
+        let paths = save_as(file, &map).map_err(|error| format!("the map is not saved: {error}"))?;
+        self.log.info(format_args!("saved {} and {}", paths.yaml.display(), paths.image.display()));
+        Ok(paths.yaml.display().to_string())
+    }
+
+    fn write(&self, saved: &mut Option<(u64, String)>) -> Result<Option<String>, String> {
+        let version = self.maps.newest().map(|map| map.changes.version());
+        let written = self.save_elsewhere(&self.file);
+        match &written {
+            Ok(file) => {
+                *saved = version.map(|version| (version, file.clone()));
+                self.troubles.clear(Trouble::MapFile);
+            }
+            Err(why) => self.troubles.report(Trouble::MapFile, Level::Error, why),
+        }
+        written.map(Some)
     }
 }
 

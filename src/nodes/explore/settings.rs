@@ -3,6 +3,7 @@
 use crate::config::{NodeParams, NodeParamsError, Preset, RobotConfig};
 use crate::explore::SettingsError;
 use crate::io::{SettingsFileError, load_preset, load_robot};
+use crate::ros::rivals::RivalError;
 use crate::ros::{Node, NodeError};
 
 /// Why the node cannot do its work.
@@ -22,6 +23,9 @@ pub enum ExploreNodeError {
         /// What is wrong.
         source: SettingsFileError,
     },
+    /// Another explorer drives the robot.
+    #[error(transparent)]
+    Rival(#[from] RivalError),
     /// The settings contradict each other.
     #[error(transparent)]
     Settings(#[from] SettingsError),

@@ -1,12 +1,14 @@
 //! Looks on while the node explores: shows every decision and keeps the figures of the
 //! status.
 
-use super::controls::Controls;
+use super::explain::explain;
+use super::operator::{Matter, Operator};
 use super::outputs::Outputs;
-use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
+use super::rules::Stage;
+use crate::explore::{Counts, Decision, DecisionRecord, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
 use crate::grid::{LiveCensus, Thresholds};
-use crate::robot::Observation;
+use crate::robot::{Observation, Robot};
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
 use crate::ros::msg::frontier_explorer::ExplorationStatus;
@@ -15,11 +17,10 @@ use crate::ros::{Node, RosRobot};
 /// Steps shorter than this are noise of the localisation, metres.
 const STEP_M: f64 = 0.02;
 
-/// The watcher of one run.
+/// The watcher of one exploration.
 pub struct NodeWatcher<'a> {
     node: &'a Node,
     outputs: &'a Outputs,
-    controls: &'a Controls,
     began_s: Option<f64>,
     now_s: f64,
     last_pose: Option<Pose>,
@@ -32,17 +33,18 @@ pub struct NodeWatcher<'a> {
     message: String,
     region_shown: bool,
     last_goal: Option<Pose>,
+    /// The last decision.
+    last: Option<DecisionRecord>,
     /// Goals that were really sent.
     goals_sent: usize,
 }
 
 impl<'a> NodeWatcher<'a> {
     /// A watcher of a run that begins now; areas are counted by these thresholds.
-    pub fn new(node: &'a Node, outputs: &'a Outputs, controls: &'a Controls, thresholds: Thresholds) -> Self {
+    pub fn new(node: &'a Node, outputs: &'a Outputs, thresholds: Thresholds) -> Self {
         Self {
             node,
             outputs,
-            controls,
             began_s: None,
             now_s: 0.0,
             last_pose: None,
@@ -55,8 +57,24 @@ impl<'a> NodeWatcher<'a> {
             message: "waiting for the first map".to_owned(),
             region_shown: false,
             last_goal: None,
+            last: None,
             goals_sent: 0,
         }
+    }
+
+    /// The time of the exploration, seconds.
+    pub const fn now_s(&self) -> f64 {
+        self.now_s
+    }
+
+    /// What the exploration sees, chose and rejected, and why.
+    pub fn explanation(&self) -> String {
+        explain(&self.outputs.status(), self.last.as_ref(), &self.outputs.troubles())
+    }
+
+    /// Tells that it begins, or goes on.
+    pub fn begin(&self, explorer: &Explorer) {
+        self.outputs.set_status(self.status(Phase::WaitingForMap, explorer, None));
     }
 
     /// Tells the end, and returns the last status.
@@ -129,13 +147,44 @@ const fn phase_sentence(phase: Phase) -> Option<&'static str> {
     }
 }
 
-impl Watcher<RosRobot> for NodeWatcher<'_> {
-    fn before_step(&mut self, _: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
-        self.now_s = observation.stamp_s;
-        self.began_s.get_or_insert(self.now_s);
-        if let Some(region) = self.controls.new_region() {
-            explorer.set_region(region);
-            self.region_shown = false;
+/// A run of an exploration: what is asked for is done, and what happens is shown.
+pub struct Attended<'a, 'b> {
+    /// Does what is asked for.
+    pub operator: &'a mut Operator,
+    /// Shows what happens.
+    pub watcher: &'a mut NodeWatcher<'b>,
+}
+
+impl Watcher<RosRobot> for Attended<'_, '_> {
+    fn before_step(&mut self, robot: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
+        let Self { operator, watcher } = self;
+        let stage = match () {
+            () if explorer.is_returning() => Stage::Returning,
+            () if robot.has_begun() => Stage::Exploring,
+            () => Stage::Waiting,
+        };
+        let explain = || watcher.explanation();
+        let now_s = observation.stamp_s;
+        operator.serve(&mut Matter { stage, explorer: Some(explorer), now_s, explain: &explain });
+        watcher.region_shown &= !operator.takes_new_region();
+        watcher.look(robot, explorer, now_s);
+    }
+
+    fn after_step(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+        self.watcher.show(robot, explorer, observation, decision);
+    }
+
+    fn stop_requested(&self) -> Option<String> {
+        self.operator.stop_requested()
+    }
+}
+
+impl NodeWatcher<'_> {
+    /// Looks on before a step, or where none is made.
+    fn look(&mut self, robot: &RosRobot, explorer: &Explorer, now_s: f64) {
+        if robot.is_ready() {
+            self.now_s = now_s;
+            self.began_s.get_or_insert(now_s);
         }
         if !self.region_shown {
             self.region_shown = true;
@@ -143,7 +192,8 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         }
     }
 
-    fn after_step(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+    /// Shows a step.
+    fn show(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
         self.count_way(observation);
         self.count_area(robot);
         self.goals_sent = robot.goals_sent();
@@ -162,15 +212,15 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
             }
             self.last_goal = record.goal;
             self.outputs.show_decision(decision, record, map.grid.info().resolution_m(), &map.frame);
+            self.last = Some(record.clone());
         }
         if let Some(path) = robot.path() {
             self.outputs.show_path(&path, &self.frame);
         }
+        if let Some(end) = &decision.end {
+            end.message.clone_into(&mut self.message);
+        }
         let new = self.status(decision.phase, explorer, decision.end.as_ref());
         self.outputs.set_status(new);
-    }
-
-    fn stop_requested(&self) -> bool {
-        self.controls.stop_requested()
     }
 }

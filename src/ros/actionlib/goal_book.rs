@@ -33,15 +33,16 @@ impl GoalBook {
         replaced
     }
 
-    /// Cancels what a message asks for: an id, all goals up to a time, or all. Returns
-    /// the goal under way if it was among them.
+    /// Turns a goal away, or takes note of one that ended before it was taken up.
+    pub fn turn_away(&mut self, id: GoalID, status: u8, text: &str, now_s: f64) -> Entry {
+        let entry = Entry { id, status, text: text.to_owned(), ended_s: Some(now_s) };
+        self.entries.push(entry.clone());
+        entry
+    }
+
+    /// Cancels what a message asks for. Returns the goal under way if it was among them.
     pub fn cancel(&mut self, message: &GoalID, now_s: f64) -> Option<Entry> {
-        let by_time = message.stamp.nanos() > 0;
-        let all = message.id.is_empty() && !by_time;
-        let active = self.active()?;
-        let named = !message.id.is_empty() && active.id.id == message.id;
-        let earlier = by_time && active.id.stamp.nanos() <= message.stamp.nanos();
-        if all || named || earlier { self.end(GoalStatus::PREEMPTED, "cancelled", now_s) } else { None }
+        if is_meant(message, &self.active()?.id) { self.end(GoalStatus::PREEMPTED, "cancelled", now_s) } else { None }
     }
 
     /// Ends the goal under way, if there is one, and returns it.
@@ -64,6 +65,16 @@ impl GoalBook {
         self.entries.retain(|entry| entry.ended_s.is_none_or(|ended_s| now_s - ended_s < KEEP_S));
         self.entries.iter().map(Entry::message).collect()
     }
+}
+
+/// Whether a cancellation means a goal: by its id, as one up to a time, or as all are meant.
+#[must_use]
+pub fn is_meant(message: &GoalID, goal: &GoalID) -> bool {
+    let by_time = message.stamp.nanos() > 0;
+    let all = message.id.is_empty() && !by_time;
+    let named = !message.id.is_empty() && goal.id == message.id;
+    let earlier = by_time && goal.stamp.nanos() <= message.stamp.nanos();
+    all || named || earlier
 }
 
 impl Entry {

@@ -46,7 +46,9 @@ impl GoalStatus {
         }
     }
 
-    const fn is_final(self) -> bool {
+    /// Whether the goal is over.
+    #[must_use]
+    pub const fn is_final(self) -> bool {
         !matches!(self, Self::Pending | Self::Active)
     }
 }

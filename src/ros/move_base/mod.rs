@@ -2,8 +2,10 @@
 //! back.
 
 mod planner;
+mod stranger;
 
 pub use planner::AskingPlanner;
+pub use stranger::Stranger;
 
 use super::actionlib::{GoalStatus, GoalTracker};
 use super::bell::Bell;
@@ -22,6 +24,7 @@ use rosrust::Publisher;
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+use stranger::StrangerWatch;
 
 /// A server is ready while its last status is younger than this, seconds.
 const READY_WITHIN_S: f64 = 2.0;
@@ -39,6 +42,7 @@ pub struct MoveBase {
     node: Node,
     server: String,
     tracker: Arc<Mutex<GoalTracker>>,
+    strangers: Arc<Mutex<StrangerWatch>>,
     goals: Publisher<MoveBaseActionGoal>,
     cancels: Publisher<GoalID>,
     status: Feed,
@@ -56,12 +60,16 @@ impl MoveBase {
     pub fn connect(node: &Node, server: &str, bell: &Arc<Bell>) -> Result<Self, NodeError> {
         let tracker = Arc::<Mutex<GoalTracker>>::default();
         let topic = |name: &str| format!("{server}/{name}");
-        let (theirs, owner) = (Arc::clone(&tracker), node.clone());
+        let strangers = Arc::<Mutex<StrangerWatch>>::default();
+        let (theirs, others, owner) = (Arc::clone(&tracker), Arc::clone(&strangers), node.clone());
+        let ours = format!("{}-", node.name());
         let status = Feed::listen(node, &topic("status"), 10, SILENCE, move |message: GoalStatusArray, _| {
             let goals = message
                 .status_list
                 .iter()
                 .map(|one| (one.goal_id.id.as_str(), GoalStatus::from_number(one.status), one.text.as_str()));
+            let under_way = goals.clone().filter(|(id, status, _)| !(status.is_final() || id.starts_with(&ours)));
+            lock(&others).on_status(under_way.map(|(id, ..)| id));
             lock(&theirs).on_status(goals, owner.wall_s());
         });
         let (theirs, bell) = (Arc::clone(&tracker), Arc::clone(bell));
@@ -77,6 +85,7 @@ impl MoveBase {
             node: node.clone(),
             server: server.to_owned(),
             tracker,
+            strangers,
             status,
             result,
             feedback,
@@ -132,6 +141,17 @@ impl MoveBase {
             NavigationState::Active if !tracker.is_taken_up() => NavigationState::Idle,
             state => state,
         }
+    }
+
+    /// Who else drives the robot now, in seconds of ROS time, if goals of others are left to
+    /// their end for so long.
+    pub fn stranger(&self, now_s: f64, limit_s: f64) -> Stranger {
+        let is_taken_away = self.state() == NavigationState::Preempted;
+        let mut strangers = lock(&self.strangers);
+        if is_taken_away {
+            strangers.on_preempted(now_s);
+        }
+        strangers.look(now_s, limit_s)
     }
 
     /// Asks move_base to clear the obstacles that it remembers, and does not wait for that:
@@ -192,6 +212,6 @@ fn cancel(tracker: &Mutex<GoalTracker>, cancels: &Publisher<GoalID>) {
     }
 }
 
-fn lock(tracker: &Mutex<GoalTracker>) -> MutexGuard<'_, GoalTracker> {
-    tracker.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -5,12 +5,14 @@ use super::RosRobot;
 use crate::geometry::Pose;
 use crate::robot::{PoseError, RobotError};
 use crate::ros::log::Level;
-use crate::ros::move_base::MoveBase;
+use crate::ros::move_base::{MoveBase, Stranger};
 use crate::ros::troubles::Trouble;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
+/// After so long without a tick those who look on are told all the same, real time.
+const IDLE: Duration = Duration::from_millis(250);
 /// From one look at the time to the next, seconds of real time at the most.
 const SLICE: Duration = Duration::from_millis(20);
 /// A clock that stands for this long is worth a word.
@@ -24,27 +26,69 @@ const GRACE_S: f64 = 2.0;
 const LATE_TRANSFORM: Duration = Duration::from_millis(250);
 
 impl RosRobot {
-    /// Waits for the next tick, or for something that has come.
-    pub(super) fn wait(&mut self) -> Result<f64, RobotError> {
+    /// Waits for the next tick, or for something that has come; in vain for a while where there
+    /// is no time, or while the exploration rests. Returns ROS time, and whether it is a tick.
+    pub(super) fn wait(&mut self) -> Result<(f64, bool), RobotError> {
+        let began = Instant::now();
         loop {
             self.check_running()?;
             let rung = self.parts.bell.wait(SLICE);
             let ros_s = self.node.now_s();
             self.watch_clock(ros_s);
             self.watch_inputs();
-            if ros_s <= 0.0 {
-                continue;
+            if ros_s > 0.0 {
+                self.parts.transforms.notice_time(self.clock.last_ros_s().unwrap_or(ros_s), ros_s);
             }
-            if self.parts.paused.load(Ordering::Relaxed) {
+            if self.rests(ros_s) {
                 self.stop();
                 self.clock.skip_to(ros_s);
-                continue;
+            } else if ros_s > 0.0 {
+                let now_s = self.clock.at(ros_s);
+                if rung || now_s >= self.next_tick_s {
+                    self.next_tick_s = now_s + self.config.tick_period_s;
+                    return Ok((ros_s, true));
+                }
             }
-            self.parts.transforms.notice_time(self.clock.last_ros_s().unwrap_or(ros_s), ros_s);
-            let now_s = self.clock.at(ros_s);
-            if rung || now_s >= self.next_tick_s {
-                self.next_tick_s = now_s + self.config.tick_period_s;
-                return Ok(ros_s);
+            if rung || began.elapsed() >= IDLE {
+                return Ok((ros_s, false));
+            }
+        }
+    }
+
+    /// Whether the exploration rests: its user asked for it, or somebody else's goal is under way.
+    fn rests(&mut self, ros_s: f64) -> bool {
+        let yields = self.yields(ros_s);
+        self.parts.paused.load(Ordering::Relaxed) || yields
+    }
+
+    /// Whether a goal of somebody else, such as one that a person clicked, is left to its end.
+    fn yields(&mut self, ros_s: f64) -> bool {
+        let Some(move_base) = &self.parts.move_base else { return false };
+        let troubles = &self.parts.troubles;
+        match move_base.stranger(ros_s, self.config.yield_s) {
+            Stranger::None => {
+                if troubles.clear(Trouble::Stranger) {
+                    self.node.log().info("the goal of somebody else is over: going on");
+                }
+                false
+            }
+            Stranger::Drives { goal } => {
+                let text = format!(
+                    "a goal of somebody else is under way ({goal}): resting until it ends, at most {} s",
+                    self.config.yield_s
+                );
+                troubles.report(Trouble::Stranger, Level::Info, text);
+                true
+            }
+            Stranger::TakesTooLong { goal } => {
+                if troubles.clear(Trouble::Stranger) {
+                    let text = format!(
+                        "the goal of somebody else ({goal}) takes longer than {} s: going on all the same",
+                        self.config.yield_s
+                    );
+                    self.node.log().warn(text);
+                }
+                false
             }
         }
     }
@@ -103,6 +147,10 @@ impl RosRobot {
     /// Where the robot is now, in seconds of ROS time.
     pub(super) fn locate(&mut self, ros_s: f64) -> Result<Pose, PoseError> {
         let mut pose = self.look_up(ros_s);
+        if ros_s <= 0.0 {
+            // Without a clock nothing is late.
+            return pose;
+        }
         let began = Instant::now();
         // One that was there a moment ago is on its way; the pilot stands still meanwhile.
         while pose.is_err() && !self.is_lost && self.has_begun && began.elapsed() < LATE_TRANSFORM {

@@ -3,7 +3,7 @@
 use super::outcome::Outcome;
 use super::{OutBag, RecordError, RunFolder, Trail};
 use crate::config::{Preset, RobotConfig};
-use crate::explore::{Decision, End, Explorer, Watcher};
+use crate::explore::{Decision, End, Explorer, STOPPED, Watcher};
 use crate::frontier::FrontierDetector;
 use crate::geometry::Pose;
 use crate::grid::OccupancyGrid;
@@ -195,8 +195,8 @@ impl Watcher<BagRobot> for ReplayRecorder<'_> {
         self.remember(robot, observation);
     }
 
-    fn stop_requested(&self) -> bool {
-        self.stop.load(Ordering::Relaxed) || self.failed.is_some()
+    fn stop_requested(&self) -> Option<String> {
+        (self.stop.load(Ordering::Relaxed) || self.failed.is_some()).then(|| STOPPED.to_owned())
     }
 }
 

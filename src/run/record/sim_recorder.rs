@@ -2,7 +2,7 @@
 
 use super::outcome::Outcome;
 use super::{RecordError, RunFolder, SimBag, Trail};
-use crate::explore::{Decision, End, Explorer, Watcher};
+use crate::explore::{Decision, End, Explorer, STOPPED, Watcher};
 use crate::report::{RunRecord, Series};
 use crate::robot::Observation;
 use crate::run::Plan;
@@ -87,7 +87,7 @@ impl Watcher<SimRobot> for SimRecorder {
         }
     }
 
-    fn stop_requested(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+    fn stop_requested(&self) -> Option<String> {
+        self.stop.load(Ordering::Relaxed).then(|| STOPPED.to_owned())
     }
 }
