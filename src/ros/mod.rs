@@ -12,6 +12,7 @@ mod clock_watch;
 pub(crate) mod convert;
 mod directory;
 pub(crate) mod display;
+pub(crate) mod doctor;
 mod embedded_master;
 mod feed;
 mod frames;

@@ -27,6 +27,8 @@ pub enum Trouble {
     Scan,
     /// Nobody drives to goals.
     MoveBase,
+    /// The costmap of whoever drives takes the unknown for free.
+    CostmapUnknown,
     /// The map cannot be saved.
     MapFile,
 }
