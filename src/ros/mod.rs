@@ -10,6 +10,7 @@ mod call;
 mod clock;
 mod clock_watch;
 pub(crate) mod convert;
+pub mod ctl;
 mod directory;
 pub(crate) mod display;
 pub(crate) mod doctor;

@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
+mod ctl;
 mod doctor;
 mod fake_publisher;
 mod peers;
@@ -78,7 +79,7 @@ fn main() {
 }
 
 fn all() -> impl Iterator<Item = &'static Test> {
-    TESTS.iter().chain(senses::TESTS).chain(peers::TESTS).chain(doctor::TESTS)
+    TESTS.iter().chain(senses::TESTS).chain(peers::TESTS).chain(doctor::TESTS).chain(ctl::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {
