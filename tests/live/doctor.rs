@@ -9,6 +9,7 @@ use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
 use frontier_explorer::ros::msg::move_base_msgs::MoveBaseActionGoal;
 use frontier_explorer::ros::msg::nav_msgs::OccupancyGrid;
 use frontier_explorer::ros::msg::std_srvs;
+use frontier_explorer::ros::msg::visualization_msgs::MarkerArray;
 use frontier_explorer::ros::{Feed, Node};
 use serde_json::Value;
 use std::process::Command;
@@ -200,6 +201,7 @@ fn forget_unknown(node: &Node) -> Feed {
 
 fn costmap_without_unknown(world: &World) {
     let _costmap = forget_unknown(&world.probe);
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
     let remapped = ["", "_updates"].map(|end| format!("move_base/global_costmap/costmap{end}:=/true/costmap{end}"));
     let _sim = simulate(world, &remapped.each_ref().map(String::as_str));
     let explore = world.explore(&[]);
@@ -207,6 +209,9 @@ fn costmap_without_unknown(world: &World) {
     explore.expect_log(named, NAMED_WITHIN);
     let remedy = "set /move_base/global_costmap/track_unknown_space to true in move_base's parameters";
     explore.expect_log(remedy, NAMED_WITHIN);
+    // It explores all the same, and says so beside.
+    let beside = |m: &ExplorationStatus| m.message.contains(named) && !m.message.starts_with(named);
+    status.expect(SOON, "driving", |m| m.phase == ExplorationStatus::DRIVING && beside(m));
     drop(explore);
     let report = doctor(&[]);
     assert_eq!((report.code, report.unwell()), (0, vec!["costmap"]), "{:#?}", report.findings);
@@ -253,18 +258,32 @@ fn unwritable_map_file(world: &World) {
 }
 
 fn others_who_drive(world: &World) {
-    let _sim = simulate(world, &[]);
+    // Goals stay under way.
+    let _sim = simulate(world, &["_fault:=hang"]);
     let status = Heard::<ExplorationStatus>::on(&world.probe, "/second/status");
-    let _explore = world.explore(&[]);
+    let explore = world.explore(&[]);
     let second = world.explore(&["__name:=second"]);
     status.expect(SOON, "a second explorer", |_| true);
     let two = doctor(&[]);
     assert_eq!(two.code, 3, "{:#?}", two.findings);
     two.expect("explorers", "error", "2 explorers drive one robot: /explore, /second", "`rosnode kill /second`");
     drop(second);
+    let lite = Node::start("lite").unwrap();
+    let _markers = lite.publish::<MarkerArray>("/lite/frontiers", 1).unwrap();
+    let its_goals = lite.publish::<MoveBaseActionGoal>("/move_base/goal", 1).unwrap();
+    let lite_too = "2 explorers drive one robot: /explore, /lite (explore_lite)";
+    doctor(&[]).expect("explorers", "error", lite_too, "`rosnode kill /lite`");
+    drop((explore, its_goals));
     let patrol = Node::start("patrol").unwrap();
-    let _goals = patrol.publish::<MoveBaseActionGoal>("/move_base/goal", 1).unwrap();
-    doctor(&[]).expect("explorers", "warning", "other clients may send goals to the same server: /patrol", "stop them");
+    let goals = patrol.publish::<MoveBaseActionGoal>("/move_base/goal", 1).unwrap();
+    eventually(SOON, || goals.subscriber_count() > 0, || "nobody hears the goals".to_owned());
+    let mut goal = MoveBaseActionGoal::default();
+    "/patrol-1-1.0".clone_into(&mut goal.goal_id.id);
+    goals.send(goal).unwrap();
+    let report = doctor(&[]);
+    report.expect("explorers", "warning", "other clients may send goals to the same server: /patrol", "stop them");
+    report.expect("goals", "warning", "is under way: /patrol-1-1.0", "`rostopic pub -1 /move_base/cancel");
+    report.expect("make_plan", "ok", "answers nobody while a goal is under way", "");
 }
 
 fn blind_scans_and_hanging_plans(world: &World) {

@@ -16,7 +16,7 @@ use crate::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
 use crate::ros::msg::geometry_msgs::{PolygonStamped, PoseStamped};
 use crate::ros::msg::nav_msgs;
 use crate::ros::msg::visualization_msgs::MarkerArray;
-use crate::ros::troubles::Troubles;
+use crate::ros::troubles::{Trouble, Troubles};
 use crate::ros::{Node, Publisher};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -156,7 +156,9 @@ impl Teller {
         // After the end nothing is waited for any more.
         let worst = self.troubles.worst().filter(|(level, _)| !ended || *level == Level::Error);
         if let Some((_, text)) = &worst {
-            fresh.message = if ended { format!("{}; {text}", fresh.message) } else { text.clone() };
+            // What does not keep it from going on is said beside what it does.
+            let is_beside = ended || self.troubles.text(Trouble::CostmapUnknown).as_ref() == Some(text);
+            fresh.message = if is_beside { format!("{}; {text}", fresh.message) } else { text.clone() };
         }
         if self.paused.load(Ordering::Relaxed) && !ended {
             fresh.phase = ExplorationStatus::PAUSED;

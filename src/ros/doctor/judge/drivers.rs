@@ -12,8 +12,9 @@ pub fn judge(wanted: &Wanted, drivers: &DriverFacts) -> Finding {
     let namespace = wanted.node.rsplit_once('/').map_or("", |(namespace, _)| namespace);
     let is_beside = |node: &&String| node.rsplit_once('/').is_some_and(|(other, _)| other == namespace);
     let drives = |node: &&String| drivers.goal_clients.contains(*node) || drivers.velocity_clients.contains(*node);
-    let all: BTreeSet<&String> = drivers.explorers.iter().chain(&drivers.explore_lite).collect();
-    let here: BTreeSet<&String> = all.iter().copied().filter(|node| drives(node) || is_beside(node)).collect();
+    let ours = drivers.explorers.iter().filter(|node| drives(node) || is_beside(node));
+    // Others may show frontiers as well: explore_lite sends goals.
+    let here: BTreeSet<&String> = ours.chain(drivers.explore_lite.iter().filter(drives)).collect();
     if here.len() > 1 {
         let named: Vec<String> =
             here.iter()
@@ -29,7 +30,7 @@ pub fn judge(wanted: &Wanted, drivers: &DriverFacts) -> Finding {
         let spare = here.iter().find(|node| ***node != wanted.node).map_or("NODE", |node| node.as_str());
         return Finding::error(CHECK, what, format!("stop all but one: `rosnode kill {spare}`"));
     }
-    let strangers: BTreeSet<&String> = drivers.goal_clients.iter().filter(|node| !all.contains(node)).collect();
+    let strangers: BTreeSet<&String> = drivers.goal_clients.iter().filter(|node| !here.contains(node)).collect();
     if !strangers.is_empty() {
         let what = format!("other clients may send goals to the same server: {}", list(strangers.iter().copied()));
         let remedy = "stop them while the robot explores: the server takes one goal at a time";
@@ -70,6 +71,7 @@ mod tests {
         assert_eq!(two.remedy.unwrap(), "stop all but one: `rosnode kill /second`");
         let lite = check(&["/explore"], &["/lite"], &["/explore", "/lite"]);
         assert_eq!(lite.what, "2 explorers drive one robot: /explore, /lite (explore_lite)");
+        assert_eq!(check(&["/explore"], &["/viewer"], &["/explore"]).level, Ok, "it shows frontiers and sends no goal");
         assert_eq!(check(&["/a/x", "/b/x"], &[], &["/a/x", "/b/x"]).level, Error, "by one server");
         let velocities = DriverFacts {
             explorers: nodes(&["/a/x", "/explore"]),
