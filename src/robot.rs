@@ -62,7 +62,10 @@ pub enum PoseError {
     },
     /// A transform bears a time that is still to come, as from a computer whose clock is
     /// wrong: how old it really is cannot be told.
-    #[error("clock skew: {parent} -> {child} is stamped {ahead_s:.1} s ahead of ROS time: must be at most {limit_s} s")]
+    #[error(
+        "clock skew: {parent} -> {child} is stamped {ahead_s:.1} s ahead of ROS time: must be at most {limit_s} s; \
+         set the clocks of the robot's computers alike"
+    )]
     Skewed {
         /// The upper frame of the link.
         parent: String,
@@ -70,6 +73,22 @@ pub enum PoseError {
         child: String,
         /// By how much, seconds.
         ahead_s: f64,
+        /// How much is allowed, seconds.
+        limit_s: f64,
+    },
+    /// A transform that keeps coming is stamped long before it comes: a clock that is behind, or
+    /// a sender that is very late.
+    #[error(
+        "clock skew: {parent} -> {child} comes stamped {behind_s:.1} s behind ROS time: must be at most {limit_s} s; \
+         set the clocks of the robot's computers alike, or see why its sender is so late"
+    )]
+    Lagging {
+        /// The upper frame of the link.
+        parent: String,
+        /// The frame that moves in it.
+        child: String,
+        /// By how much, seconds.
+        behind_s: f64,
         /// How much is allowed, seconds.
         limit_s: f64,
     },

@@ -26,7 +26,7 @@ pub fn one_line(message: &str) -> String {
 }
 
 /// The unknown name of an error by serde, and those that it expects.
-fn unknown(message: &str) -> Option<(&str, Vec<&str>)> {
+pub(super) fn unknown(message: &str) -> Option<(&str, Vec<&str>)> {
     let (_, rest) = message.split_once("unknown field `").or_else(|| message.split_once("unknown variant `"))?;
     let (wanted, rest) = rest.split_once('`')?;
     let (_, names) = rest.split_once("expected ")?;

@@ -5,6 +5,7 @@
 //! works with another `pkg` and `type`.
 
 use super::merge::merge;
+use super::names::unknown;
 use super::params::{ParamError, read_params};
 use super::preset::{Preset, PresetError};
 use crate::geometry::{Point, Polygon};
@@ -29,6 +30,28 @@ pub enum NodeParamsError {
     /// The settings that come out are no preset.
     #[error("parameter ~{0}")]
     Preset(#[from] PresetError),
+}
+
+impl NodeParamsError {
+    /// The name that nobody knows, with slashes between its levels, where that is what is wrong.
+    #[must_use]
+    pub fn unknown_name(&self) -> Option<String> {
+        let Self::Wrong(ParamError { path, message }) = self else { return None };
+        let (wanted, _) = message.starts_with("unknown field").then(|| unknown(message))??;
+        let mut levels: Vec<&str> = path.split('.').filter(|level| !matches!(*level, "" | "?")).collect();
+        // Below settings of several kinds, serde names the table alone.
+        if levels.last() != Some(&wanted) {
+            levels.push(wanted);
+        }
+        Some(levels.join("/"))
+    }
+
+    /// The command that takes a parameter that nobody knows away from a node: it stays on the
+    /// parameter server however often the node starts.
+    #[must_use]
+    pub fn removal(&self, node: &str) -> Option<String> {
+        Some(format!("rosparam delete {node}/{}", self.unknown_name()?))
+    }
 }
 
 /// Who makes the robot look round.

@@ -75,3 +75,15 @@ fn mistakes_are_named_with_what_is_allowed() {
     assert!(region.starts_with("parameter ~region: "), "{region}");
     assert_eq!(error(json!({"map_topic": ""})), "parameter ~map_topic: is empty: must be a name");
 }
+
+#[test]
+fn a_name_that_nobody_knows_comes_with_the_command_that_removes_it() {
+    let removal = |tree: Value| preset(tree).unwrap_err().removal("/explore");
+    let expected = |name: &str| Some(format!("rosparam delete /explore/{name}"));
+    assert_eq!(removal(json!({"base_frme": "x"})), expected("base_frme"));
+    assert_eq!(removal(json!({"explorer": {"goal": {"serch": 1}}})), expected("explorer/goal/serch"));
+    let deep = json!({"explorer": {"selection": {"name": "explore_lite", "gain_scl": 1.0}}});
+    assert_eq!(removal(deep), expected("explorer/selection/gain_scl"));
+    assert_eq!(removal(json!({"tick_rate": 0})), None);
+    assert_eq!(removal(json!({"tick_rate": "fast"})), None);
+}

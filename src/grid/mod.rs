@@ -25,6 +25,7 @@ pub(crate) use census::LiveCensus;
 pub use changes::Changes;
 pub use costmap::{
     BelievedCosts, Costmap, FREE_COST, HIGHEST_COST, INSCRIBED_COST, Inflation, LETHAL_COST, NARROW_COST, UNKNOWN_COST,
+    unknown_share_hidden_by,
 };
 pub(crate) use costmap::{LiveCostmap, Roomy};
 pub use distance::squared_distance_cells;

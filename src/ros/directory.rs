@@ -1,4 +1,4 @@
-//! What the master knows of topics: who publishes and hears them, and of which type. Asked
+//! What the master knows of topics and services: who publishes, hears and offers them. Asked
 //! on a thread of its own, one question at a time, so that a master that hangs keeps nobody
 //! waiting.
 
@@ -16,6 +16,7 @@ type Nodes = BTreeMap<String, BTreeSet<String>>;
 pub(super) struct Listing {
     publishers: Nodes,
     subscribers: Nodes,
+    services: Nodes,
     types: BTreeMap<String, String>,
     taken: Instant,
 }
@@ -31,6 +32,11 @@ impl Listing {
         self.subscribers.get(topic).cloned().unwrap_or_default()
     }
 
+    /// The nodes that offer a service, by its full name.
+    pub fn servers(&self, service: &str) -> BTreeSet<String> {
+        self.services.get(service).cloned().unwrap_or_default()
+    }
+
     /// The type of a topic, such as `nav_msgs/OccupancyGrid`.
     pub fn type_of(&self, topic: &str) -> Option<&str> {
         self.types.get(topic).map(String::as_str)
@@ -44,6 +50,14 @@ impl Listing {
     /// The topics of a type that somebody hears, with those who do.
     pub fn heard<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = (&'a str, &'a BTreeSet<String>)> {
         self.of_type(&self.subscribers, kind)
+    }
+
+    /// The action servers that drive as move_base does, by their full names: they hear goals and
+    /// publish feedback. Not every master knows the types of topics that are only heard.
+    pub fn driving_servers(&self) -> BTreeSet<String> {
+        let goals = self.heard("move_base_msgs/MoveBaseActionGoal").filter_map(|(t, _)| t.strip_suffix("/goal"));
+        let feedback = self.published("move_base_msgs/MoveBaseActionFeedback");
+        goals.chain(feedback.filter_map(|(t, _)| t.strip_suffix("/feedback"))).map(ToOwned::to_owned).collect()
     }
 
     /// How long ago the master answered.
@@ -90,6 +104,7 @@ fn ask(ros: &Ros) -> Option<Listing> {
     Some(Listing {
         publishers: state.publishers.into_iter().map(|t| (t.name, t.connections.into_iter().collect())).collect(),
         subscribers: state.subscribers.into_iter().map(|t| (t.name, t.connections.into_iter().collect())).collect(),
+        services: state.services.into_iter().map(|t| (t.name, t.connections.into_iter().collect())).collect(),
         types: types.into_iter().map(|topic| (topic.name, topic.datatype)).collect(),
         taken: Instant::now(),
     })

@@ -33,6 +33,19 @@ struct Told {
     arrived_s: f64,
 }
 
+/// A link between two frames whose transform changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToldLink {
+    /// The upper frame.
+    pub parent: String,
+    /// The frame that moves in it.
+    pub child: String,
+    /// The newest stamp, seconds.
+    pub stamp_s: f64,
+    /// When the last transform came, seconds of ROS time; none while there is no time.
+    pub arrived_s: Option<f64>,
+}
+
 /// What is known of the frames, and when it came.
 pub(super) struct Frames {
     buffer: TransformBuffer,
@@ -92,7 +105,8 @@ impl Frames {
                 return Err(PoseError::NotYet { map_frame, base_frame, why });
             }
         };
-        if let Some(error) = links.iter().find_map(|link| skew(link, now_s, limit_s + AHEAD_S)) {
+        let wrong_clock = |link| skew(link, now_s, limit_s + AHEAD_S).or_else(|| self.lag(link, now_s, limit_s));
+        if let Some(error) = links.iter().find_map(wrong_clock) {
             return Err(error);
         }
         let oldest_s = links.iter().map(|link| link.newest_s).fold(f64::INFINITY, f64::min);
@@ -107,6 +121,24 @@ impl Frames {
             Ok(newest) => Ok(planar(&newest.transform)),
             Err(error) => Err(PoseError::NotYet { map_frame, base_frame, why: error.to_string() }),
         }
+    }
+
+    /// The moving links between two frames, with the times that were last told of them.
+    ///
+    /// # Errors
+    /// [`TransformError`] when no transform leads there.
+    pub fn links(&self, map: &str, base: &str) -> Result<Vec<ToldLink>, TransformError> {
+        let links = self.buffer.moving_links(map, base)?;
+        let told = |link: MovingLink<'_>| {
+            let arrived_s = self.told.get(link.child).map(|told| told.arrived_s);
+            ToldLink { parent: link.parent.to_owned(), child: link.child.to_owned(), stamp_s: link.newest_s, arrived_s }
+        };
+        Ok(links.into_iter().map(told).collect())
+    }
+
+    /// The names of all frames, in order.
+    pub fn names(&self) -> Vec<String> {
+        self.buffer.frames().into_iter().map(ToOwned::to_owned).collect()
     }
 
     /// Where a sensor was in another frame at a time, and whether it hung upside down.
@@ -126,9 +158,26 @@ impl Frames {
         match (missing(map_frame), missing(base_frame)) {
             (true, true) => format!("neither frame is known: tf has {has}"),
             (true, false) => format!("the map's frame {map_frame} is unknown: tf has {has}"),
-            (false, true) => format!("the robot's frame {base_frame} (~base_frame) is unknown: tf has {has}"),
-            (false, false) => error.to_string(),
+            (false, true) => {
+                format!(
+                    "the robot's frame {base_frame} (~base_frame) is unknown: tf has {has}; set ~base_frame to the robot's"
+                )
+            }
+            (false, false) => match error {
+                TransformError::NotConnected { target_root, source_root, .. } => {
+                    format!("{error}; what tells {target_root} -> {source_root} is missing")
+                }
+                _ => error.to_string(),
+            },
         }
+    }
+
+    /// Stamped long before it came, and it still comes: a clock that is behind.
+    fn lag(&self, link: &MovingLink<'_>, now_s: f64, limit_s: f64) -> Option<PoseError> {
+        let told = self.told.get(link.child)?;
+        let (behind_s, is_coming) = (told.arrived_s - told.stamp_s, now_s - told.arrived_s <= limit_s);
+        let (parent, child, limit_s) = (link.parent.to_owned(), link.child.to_owned(), limit_s + AHEAD_S);
+        (is_coming && behind_s > limit_s).then_some(PoseError::Lagging { parent, child, behind_s, limit_s })
     }
 
     fn silence(&self, link: &MovingLink<'_>, now_s: f64, limit_s: f64) -> Option<PoseError> {
@@ -185,11 +234,16 @@ mod tests {
 
     #[test]
     fn a_wrong_clock_is_named() {
-        let message = "clock skew: map -> odom is stamped 120.0 s ahead of ROS time: must be at most 1.5 s";
+        let message = "clock skew: map -> odom is stamped 120.0 s ahead of ROS time: must be at most 1.5 s; \
+                       set the clocks of the robot's computers alike";
         assert_eq!(pose(&told(100.0, 120.0, 0.0), 100.0).unwrap_err(), message);
         assert!(pose(&told(100.0, 120.0, 120.0), 100.0).unwrap_err().contains("odom -> base is stamped 120.0 s"));
         let behind = pose(&told(100.0, 0.0, -3.0), 100.0).unwrap_err();
-        assert_eq!(behind, "the transform from map to base is 3.0 s old: must be at most 0.5 s");
+        assert!(behind.starts_with("clock skew: odom -> base comes stamped 3.0 s behind ROS time"), "{behind}");
+        let late = pose(&told(100.0, 0.0, -1.0), 100.0).unwrap_err();
+        assert_eq!(late, "the transform from map to base is 1.0 s old: must be at most 0.5 s");
+        let silent = pose(&told(100.0, 0.0, -3.0), 100.6).unwrap_err();
+        assert_eq!(silent, "the transform from map to base is 3.6 s old: must be at most 0.5 s");
     }
 
     #[test]
@@ -235,7 +289,8 @@ mod tests {
     fn the_frame_that_is_missing_is_named() {
         let frames = told(100.0, 0.0, 0.0);
         let error = frames.robot("map", "base_lnk", 100.0, LIMIT_S).unwrap_err().to_string();
-        let said = "the robot's frame base_lnk (~base_frame) is unknown: tf has base, map, odom";
+        let said = "the robot's frame base_lnk (~base_frame) is unknown: tf has base, map, odom; \
+                    set ~base_frame to the robot's";
         assert_eq!(error, format!("no transform from map to base_lnk yet: {said}"));
         let error = frames.robot("mapp", "base", 100.0, LIMIT_S).unwrap_err().to_string();
         assert!(error.contains("the map's frame mapp is unknown"), "{error}");

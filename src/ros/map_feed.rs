@@ -113,6 +113,12 @@ impl MapFeed {
         map
     }
 
+    /// The topic, as it was asked for.
+    #[must_use]
+    pub fn topic(&self) -> &str {
+        &self.topic
+    }
+
     /// A handle that reads the newest map from other threads.
     #[must_use]
     pub fn reader(&self) -> MapReader {
@@ -132,10 +138,19 @@ impl MapFeed {
         let publishers = listing.publishers(&topic);
         let maps: Vec<String> =
             listing.published(MAP_TYPE).map(|(other, nodes)| format!("{other} (of {})", list(nodes))).collect();
+        let remedy = if maps.is_empty() {
+            "start a SLAM or map_server".to_owned()
+        } else {
+            format!("set {parameter} to one of them")
+        };
+        let instead = format!("topics with maps: {}; {remedy}", list(&maps));
         Some(match listing.type_of(&topic) {
-            _ if publishers.is_empty() => format!("{silent}: nobody publishes it; topics with maps: {}", list(&maps)),
-            Some(MAP_TYPE) | None => format!("{silent}: {} publishes it and has sent none", list(&publishers)),
-            Some(other) => format!("{silent}: it is a {other}; topics with maps: {}", list(&maps)),
+            _ if publishers.is_empty() => format!("{silent}: nobody publishes it; {instead}"),
+            Some(MAP_TYPE) | None => format!(
+                "{silent}: {} publishes it and has sent none; a SLAM needs scans and transforms for its first",
+                list(&publishers)
+            ),
+            Some(other) => format!("{silent}: it is a {other}; {instead}"),
         })
     }
 }

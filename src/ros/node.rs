@@ -159,7 +159,15 @@ impl Node {
     /// # Errors
     /// [`NodeError::Params`] when the master does not tell.
     pub fn private_params(&self) -> Result<serde_json::Value, NodeError> {
-        params::tree(&self.ros, self.name()).map_err(|why| NodeError::Params { name: self.name().to_owned(), why })
+        self.params_below(self.name())
+    }
+
+    /// The parameters below any full name as a tree, such as those of another node.
+    ///
+    /// # Errors
+    /// [`NodeError::Params`] when the master does not tell.
+    pub fn params_below(&self, name: &str) -> Result<serde_json::Value, NodeError> {
+        params::tree(&self.ros, name).map_err(|why| NodeError::Params { name: name.to_owned(), why })
     }
 
     /// One parameter, searched upwards from the node's namespace as `tf_prefix` is.
@@ -208,7 +216,7 @@ impl Node {
     }
 
     /// A name as the master knows it: in the node's namespace, and remapped.
-    pub(super) fn full_name(&self, name: &str) -> String {
+    pub(crate) fn full_name(&self, name: &str) -> String {
         self.ros.param(name).map_or_else(|| name.to_owned(), |param| param.name().to_owned())
     }
 

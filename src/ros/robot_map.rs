@@ -3,7 +3,7 @@
 use super::clock::RunClock;
 use super::map_feed::{MapFeed, ReceivedMap};
 use super::node::Node;
-use crate::grid::{BelievedCosts, Changes, Inflation, LiveCostmap, Snapshot, Thresholds};
+use crate::grid::{BelievedCosts, Changes, Inflation, LiveCostmap, Snapshot, Thresholds, unknown_share_hidden_by};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
@@ -79,6 +79,23 @@ impl RobotMap {
     pub fn missing_costmap(&self, node: &Node, waited_s: f64) -> Option<String> {
         let CostmapFeed::PlannedOn(feed) = &self.costmap else { return None };
         feed.missing(node, "~global_costmap_topic", waited_s)
+    }
+
+    /// What to say where the costmap has no unknown cell and the map has: whoever drives takes
+    /// what nobody has seen for free.
+    #[must_use]
+    pub fn without_unknown(&self, node: &Node) -> Option<String> {
+        let (CostmapFeed::PlannedOn(feed) | CostmapFeed::Believed(feed)) = &self.costmap else { return None };
+        let (map, costmap) = (self.received()?, feed.reader().newest()?);
+        let is_hidden = costmap.frame == map.frame && unknown_share_hidden_by(&costmap.grid, &map.grid).is_some();
+        let topic = node.full_name(feed.topic());
+        let space = topic.trim_end_matches("/costmap");
+        is_hidden.then(|| {
+            format!(
+                "the costmap on {topic} has no unknown cell, and the map has: goals lead through what nobody has \
+                 seen; set {space}/track_unknown_space to true in move_base's parameters and start it again"
+            )
+        })
     }
 
     /// Takes the newest map and costmap in; whether one of them is new.

@@ -2,7 +2,7 @@
 
 use super::convert;
 use super::feed::Feed;
-use super::frames::Frames;
+use super::frames::{Frames, ToldLink};
 use super::log::Level;
 use super::msg::tf2_msgs::TFMessage;
 use super::node::Node;
@@ -56,6 +56,20 @@ impl Transforms {
     /// [`PoseError`] when no transform leads there, or one cannot be believed.
     pub fn robot(&self, map: &str, base: &str, now_s: f64, limit_s: f64) -> Result<Pose, PoseError> {
         lock(&self.frames).robot(map, base, now_s, limit_s)
+    }
+
+    /// The moving links between two frames, with the times that were last told of them.
+    ///
+    /// # Errors
+    /// [`TransformError`] when no transform leads there.
+    pub fn links(&self, map: &str, base: &str) -> Result<Vec<ToldLink>, TransformError> {
+        lock(&self.frames).links(map, base)
+    }
+
+    /// The names of all frames, in order.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        lock(&self.frames).names()
     }
 
     /// Where a sensor was in another frame at a time, and whether it hung upside down.

@@ -29,6 +29,8 @@ pub enum Trouble {
     MoveBase,
     /// Somebody else's goal is under way.
     Stranger,
+    /// The costmap of whoever drives takes the unknown for free.
+    CostmapUnknown,
     /// The map cannot be saved.
     MapFile,
 }

@@ -4,6 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
 mod controls;
+mod ctl;
+mod doctor;
 mod fake_publisher;
 mod peers;
 mod relay;
@@ -78,7 +80,8 @@ fn main() {
 }
 
 fn all() -> impl Iterator<Item = &'static Test> {
-    TESTS.iter().chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS)
+    let own = TESTS.iter().chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
+    own.chain(doctor::TESTS).chain(ctl::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {

@@ -196,19 +196,20 @@ fn misspelt_inputs(world: &World) {
             "map",
             "_map_topic:=mapp",
             "no map has come on /mapp (~map_topic) for",
-            "nobody publishes it; topics with maps: /map (of /sim)",
+            "nobody publishes it; topics with maps: /map (of /sim), /move_base/global_costmap/costmap (of /sim); \
+             set ~map_topic to one of them",
         ),
         (
             "base",
             "_base_frame:=base_lnk",
             "the robot's frame base_lnk (~base_frame) is unknown: tf has",
-            "base_footprint, base_link, base_scan, map, odom",
+            "base_footprint, base_link, base_scan, map, odom; set ~base_frame to the robot's",
         ),
         (
             "server",
             "_move_base:=move_bse",
             "no action server tells its status on move_bse/status",
-            "action servers that drive: /move_base",
+            "action servers that drive: /move_base; set ~move_base to one of them",
         ),
     ];
     let health = Heard::<DiagnosticArray>::on(&world.probe, "/diagnostics");

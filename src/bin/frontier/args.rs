@@ -1,6 +1,6 @@
 //! The command line as clap sees it: one variant for each file in `commands`.
 
-use crate::commands::{bag, bench, compare, demo, detect, explore, map, replay, shell};
+use crate::commands::{bag, bench, compare, ctl, demo, detect, doctor, explore, map, replay, shell};
 use clap::{Parser, Subcommand};
 
 /// Frontier exploration without a robot: worlds, maps and bags.
@@ -21,6 +21,10 @@ pub enum Command {
     Compare(compare::Args),
     /// Show the ROS nodes at work, with a master of their own: no ROS is needed.
     Demo(demo::Args),
+    /// Look at a running ROS graph: what keeps an exploration from running, and how to mend it.
+    Doctor(doctor::Args),
+    /// Ask a running explorer for something: start, pause, status and so on.
+    Ctl(ctl::Args),
     /// Find the frontiers of a map as seen from a pose.
     Detect(detect::Args),
     /// Look at, convert and compare map_server maps.

@@ -6,6 +6,7 @@ mod commands;
 mod exit;
 mod inputs;
 mod output;
+mod ros_node;
 mod stop;
 mod values;
 

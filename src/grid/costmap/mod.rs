@@ -1,6 +1,7 @@
 //! One cost for each cell of a map: what it costs the robot's centre to be there, in costmap_2d's scale.
 
 mod believed;
+mod hidden;
 mod inflation;
 mod live;
 mod published;
@@ -10,6 +11,7 @@ use crate::geometry::Point;
 use std::collections::HashMap;
 
 pub use believed::BelievedCosts;
+pub use hidden::unknown_share_hidden_by;
 pub use inflation::Inflation;
 pub(crate) use live::{LiveCostmap, Roomy};
 

@@ -191,7 +191,9 @@ impl Teller {
         // After the end nothing is waited for any more.
         let worst = self.troubles.worst().filter(|(level, _)| !ended || *level == Level::Error);
         if let Some((_, text)) = &worst {
-            fresh.message = if ended { format!("{}; {text}", fresh.message) } else { text.clone() };
+            // What does not keep it from going on is said beside what it does.
+            let is_beside = ended || self.troubles.text(Trouble::CostmapUnknown).as_ref() == Some(text);
+            fresh.message = if is_beside { format!("{}; {text}", fresh.message) } else { text.clone() };
         }
         let is_under_way = !(ended || fresh.phase == ExplorationStatus::IDLE);
         if self.paused.load(Ordering::Relaxed) && is_under_way {

@@ -36,7 +36,10 @@ impl MapSaver {
                 self.troubles.clear(Trouble::MapFile);
             }
             Err(error) => {
-                let text = format_args!("the map could not be saved as ~map_file says: {error}");
+                let text = format_args!(
+                    "the map could not be saved as ~map_file says: {error}; let this user write there, or set \
+                     ~map_file elsewhere"
+                );
                 self.troubles.report(Trouble::MapFile, Level::Error, text);
             }
         }

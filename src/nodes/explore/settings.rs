@@ -15,6 +15,14 @@ pub enum ExploreNodeError {
     /// A parameter is wrong.
     #[error(transparent)]
     Params(#[from] NodeParamsError),
+    /// A parameter that nobody knows.
+    #[error("{source}; remove it with `{removal}`: it stays on the parameter server until then")]
+    UnknownParam {
+        /// Which one, and those that there are.
+        source: NodeParamsError,
+        /// The command that removes it.
+        removal: String,
+    },
     /// A preset or a robot that a parameter names cannot be had.
     #[error("parameter ~{parameter}: {source}")]
     File {
@@ -47,11 +55,15 @@ impl Settings {
     /// # Errors
     /// [`ExploreNodeError`] with the parameter that is wrong.
     pub fn read(node: &Node) -> Result<Self, ExploreNodeError> {
-        let mut params = NodeParams::from_tree(node.private_params()?)?;
+        let wrong = |source: NodeParamsError| match source.removal(node.name()) {
+            Some(removal) => ExploreNodeError::UnknownParam { source, removal },
+            None => source.into(),
+        };
+        let mut params = NodeParams::from_tree(node.private_params()?).map_err(wrong)?;
         let file = |parameter, source| ExploreNodeError::File { parameter, source };
         let base = load_preset(params.base_preset()).map_err(|e| file("config", e))?;
         let robot = load_robot(&params.robot).map_err(|e| file("robot", e))?;
-        let preset = params.apply_to(base)?;
+        let preset = params.apply_to(base).map_err(wrong)?;
         if let (Some(prefix), false) = (node.searched_param("tf_prefix"), params.base_frame.starts_with('/')) {
             let prefix = prefix.trim_matches('/');
             if !prefix.is_empty() {

@@ -170,17 +170,13 @@ impl MoveBase {
     pub fn trouble(&self) -> Option<String> {
         let why = self.check_ready().err()?;
         let Some(listing) = self.node.listing(LISTING_AGE) else { return Some(why) };
-        // A server hears its goals.
-        let servers: BTreeSet<String> = listing
-            .heard("move_base_msgs/MoveBaseActionGoal")
-            .filter_map(|(topic, _)| topic.strip_suffix("/goal"))
-            .map(ToOwned::to_owned)
-            .collect();
+        let servers = listing.driving_servers();
         let wanted = self.node.full_name(&self.server);
         Some(if servers.contains(&wanted) {
-            format!("{why}, though {wanted} hears goals")
+            format!("{why}, though {wanted} is there")
         } else {
-            format!("{why}; action servers that drive: {}", list(&servers))
+            let remedy = if servers.is_empty() { "start move_base" } else { "set ~move_base to one of them" };
+            format!("{why}; action servers that drive: {}; {remedy}", list(&servers))
         })
     }
 

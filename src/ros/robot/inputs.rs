@@ -105,7 +105,8 @@ impl RosRobot {
         let stands = self.clock_watch.stands_for(ros_s);
         let troubles = &self.parts.troubles;
         if ros_s <= 0.0 && self.node.wall_s() > GRACE_S {
-            let text = "use_sim_time is set and no /clock has come yet: waiting for it";
+            let text = "use_sim_time is set and no /clock has come yet: waiting for it; start the simulator or \
+                        `rosbag play --clock`, or `rosparam set /use_sim_time false` and start all nodes again";
             troubles.report(Trouble::Clock, Level::Warn, text);
         } else if ros_s > 0.0 && stands >= CLOCK_PATIENCE {
             let text = format!("/clock stands at {ros_s:.1} s: waiting for it to go on");
@@ -131,6 +132,7 @@ impl RosRobot {
         };
         tell(Trouble::Map, self.parts.map.missing_map(&self.node, waited_s));
         tell(Trouble::Costmap, self.parts.map.missing_costmap(&self.node, waited_s));
+        tell(Trouble::CostmapUnknown, self.parts.map.without_unknown(&self.node));
         tell(Trouble::MoveBase, self.parts.move_base.as_ref().and_then(MoveBase::trouble));
     }
 

@@ -3,8 +3,10 @@
 pub mod bag;
 pub mod bench;
 pub mod compare;
+pub mod ctl;
 pub mod demo;
 pub mod detect;
+pub mod doctor;
 pub mod explore;
 pub mod map;
 pub mod replay;
@@ -20,6 +22,8 @@ pub fn run(command: Command) -> anyhow::Result<Outcome> {
         Command::Explore(args) => explore::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Demo(args) => demo::run(&args),
+        Command::Doctor(args) => doctor::run(&args),
+        Command::Ctl(args) => ctl::run(&args),
         Command::Detect(args) => detect::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Bag(command) => bag::run(&command),
