@@ -7,7 +7,7 @@
 use super::merge::merge;
 use super::params::{ParamError, read_params};
 use super::preset::{Preset, PresetError};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::Polygon;
 use crate::grid::Thresholds;
 use crate::range::OutOfRange;
 use crate::selection::{ExploreLiteConfig, SelectorConfig};
@@ -26,6 +26,14 @@ pub enum NodeParamsError {
     /// A region that is none.
     #[error("parameter ~region: {0}")]
     Region(String),
+    /// A no-go area that is none.
+    #[error("parameter ~no_go: area {index}: {why}")]
+    NoGo {
+        /// Which one, from 0.
+        index: usize,
+        /// What is wrong.
+        why: String,
+    },
     /// The settings that come out are no preset.
     #[error("parameter ~{0}")]
     Preset(#[from] PresetError),
@@ -83,8 +91,10 @@ pub struct NodeParams {
     /// Velocity commands of our own get the robot away from what stands too near, guarded
     /// by the scan, when goals fail from one place again and again.
     pub back_off: bool,
-    /// Corners `[x, y]` in metres of the map frame: only frontiers inside are explored.
+    /// Corners `[x, y]` in metres of the map frame: the robot explores and keeps to the inside.
     pub region: Option<Vec<[f64; 2]>>,
+    /// Areas that the robot keeps out of, each by its corners.
+    pub no_go: Option<Vec<Vec<[f64; 2]>>>,
     /// Where the map is saved at the end, as map_saver's `-f`; not at all when empty.
     pub map_file: String,
     /// Leave when the exploration has ended.
@@ -134,6 +144,7 @@ impl Default for NodeParams {
             turn_by: TurnBy::default(),
             back_off: true,
             region: None,
+            no_go: None,
             map_file: String::new(),
             exit_when_done: false,
             visualize: true,
@@ -220,9 +231,14 @@ impl NodeParams {
             preset.explorer.thresholds = Thresholds { free_max: 99, occupied_min: 100 };
         }
         if let Some(corners) = &self.region {
-            let corners = corners.iter().map(|&[x, y]| Point::new(x, y)).collect();
-            let region = Polygon::new(corners).map_err(|e| NodeParamsError::Region(e.to_string()))?;
+            let region = Polygon::try_from(corners.clone()).map_err(|e| NodeParamsError::Region(e.to_string()))?;
             preset.explorer.region = Some(region);
+        }
+        if let Some(areas) = &self.no_go {
+            let area = |(index, corners): (usize, &Vec<[f64; 2]>)| {
+                Polygon::try_from(corners.clone()).map_err(|e| NodeParamsError::NoGo { index, why: e.to_string() })
+            };
+            preset.explorer.no_go = areas.iter().enumerate().map(area).collect::<Result<_, _>>()?;
         }
         preset.validate()?;
         Ok(preset)

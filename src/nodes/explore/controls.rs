@@ -1,16 +1,13 @@
-//! What users may do while the node runs: rest and go on, draw a region, save the map,
-//! stop.
+//! What users may do while the node runs: rest and go on, save the map, stop.
 
+use super::areas::AreaInputs;
 use super::connect::Connected;
 use super::saving::save_as;
 use super::settings::{ExploreNodeError, Settings};
-use crate::geometry::{Point, Polygon};
 use crate::planning::GlobalPlanner;
 use crate::ros::move_base::AskingPlanner;
-use crate::ros::msg::geometry_msgs::{PointStamped, PolygonStamped};
 use crate::ros::msg::std_msgs::Bool;
 use crate::ros::msg::std_srvs::{Trigger, TriggerRes};
-use crate::ros::region::{Clicked, RegionDrawing};
 use crate::ros::{Feed, Node, Service};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -22,8 +19,8 @@ const LOOK: Duration = Duration::from_secs(60);
 /// What a user asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Request {
-    /// Explore inside this region, or everywhere.
-    Region(Option<Polygon>),
+    /// Explore other areas.
+    Areas,
     /// Explore again.
     Resume,
 }
@@ -38,19 +35,15 @@ pub struct Controls {
 }
 
 impl Controls {
-    /// Begins to take requests: `explore/resume` (explore_lite), RViz's
-    /// `clicked_point`, `~set_region`, and the services `~save_map` and `~stop`.
+    /// Begins to take requests: `explore/resume` (explore_lite), and the services `~save_map` and
+    /// `~stop`.
     ///
     /// # Errors
     /// [`ExploreNodeError`] when a service cannot be offered.
     pub fn listen(node: &Node, settings: &Settings, connected: &Connected) -> Result<Self, ExploreNodeError> {
         let requests = Arc::<Mutex<Vec<Request>>>::default();
         let stop = Arc::new(AtomicBool::new(false));
-        let feeds = vec![
-            listen_to_resume(node, &requests, connected),
-            listen_to_clicks(node, &requests, connected),
-            listen_to_regions(node, &requests, connected),
-        ];
+        let feeds = vec![listen_to_resume(node, &requests, connected)];
         let (maps, map_file, log) = (connected.maps.clone(), settings.params.map_file.clone(), node.log().clone());
         let path = if map_file.is_empty() { "map".to_owned() } else { map_file };
         let save = node.serve::<Trigger>("~save_map", move |_| {
@@ -75,27 +68,19 @@ impl Controls {
         Ok(Self { requests, stop, map_frame, _feeds: feeds, _services: [save, stop_service] })
     }
 
-    /// The newest region that was asked for since the last call.
-    pub fn new_region(&self) -> Option<Option<Polygon>> {
-        let requests = std::mem::take(&mut *self.requests.lock().unwrap_or_else(PoisonError::into_inner));
-        requests.into_iter().rev().find_map(|request| match request {
-            Request::Region(region) => Some(region),
-            Request::Resume => None,
-        })
-    }
-
     /// Whether the user wants the run to end; asked once for each time.
     pub fn stop_requested(&self) -> bool {
         self.stop.swap(false, Ordering::Relaxed)
     }
 
     /// Waits until another run is asked for; `None` when the node is told to stop.
-    pub fn wait_for_another_run(&self, node: &Node) -> Option<Request> {
+    pub fn wait_for_another_run(&self, node: &Node, areas: &AreaInputs) -> Option<Request> {
         node.log().info("ready to explore again: publish true on explore/resume, or draw a region");
         let forever = Duration::MAX;
         let mut request = None;
         node.wait_until(forever, || {
             request = self.requests.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            request = request.take().or_else(|| areas.has_new().then_some(Request::Areas));
             request.is_some()
         });
         request
@@ -129,53 +114,4 @@ fn listen_to_resume(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected:
         }
         bell.ring();
     })
-}
-
-fn listen_to_clicks(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
-    let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
-    let drawing = Mutex::new(RegionDrawing::default());
-    Feed::listen_seldom(node, "clicked_point", 10, LOOK, move |message: PointStamped, _| {
-        if !is_in_frame(&frame, &message.header.frame_id) {
-            log.warn(format_args!("a clicked point in the frame {}: must be in the map's", message.header.frame_id));
-            return;
-        }
-        let clicked =
-            drawing.lock().unwrap_or_else(PoisonError::into_inner).click(Point::new(message.point.x, message.point.y));
-        match clicked {
-            Clicked::Corner(count) => log.info(format_args!("corner {count} of the region; near the first closes it")),
-            Clicked::Closed(region) => {
-                log.info(format_args!("a region of {} corners is explored from now on", region.corners().len()));
-                push(&requests, Request::Region(Some(region)));
-            }
-            Clicked::Refused(why) => log.warn(format_args!("the clicked corners make no region: {why}")),
-        }
-    })
-}
-
-fn listen_to_regions(node: &Node, requests: &Arc<Mutex<Vec<Request>>>, connected: &Connected) -> Feed {
-    let (requests, frame, log) = (Arc::clone(requests), Arc::clone(&connected.map_frame), node.log().clone());
-    Feed::listen_seldom(node, "~set_region", 5, LOOK, move |message: PolygonStamped, _| {
-        if !is_in_frame(&frame, &message.header.frame_id) {
-            log.warn(format_args!("a region in the frame {}: must be in the map's", message.header.frame_id));
-            return;
-        }
-        let corners: Vec<Point> =
-            message.polygon.points.iter().map(|p| Point::new(f64::from(p.x), f64::from(p.y))).collect();
-        if corners.is_empty() {
-            log.info("everything is explored from now on");
-            push(&requests, Request::Region(None));
-            return;
-        }
-        match Polygon::new(corners) {
-            Ok(region) => push(&requests, Request::Region(Some(region))),
-            Err(error) => log.warn(format_args!("~set_region: {error}")),
-        }
-    })
-}
-
-/// Whether a message is in the map's frame; an empty name is taken for it.
-fn is_in_frame(map_frame: &Mutex<String>, frame: &str) -> bool {
-    let map = map_frame.lock().unwrap_or_else(PoisonError::into_inner);
-    let (map, frame) = (crate::tf::frame_name(&map), crate::tf::frame_name(frame));
-    map.is_empty() || frame.is_empty() || map == frame
 }

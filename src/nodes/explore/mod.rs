@@ -1,5 +1,6 @@
 //! `explore_node`: the papers' exploration node in a move_base-era stack.
 
+mod areas;
 mod connect;
 mod controls;
 mod outputs;
@@ -11,10 +12,10 @@ pub use settings::ExploreNodeError;
 
 use crate::config::{BUILTIN_ROBOTS, Preset};
 use crate::explore::{End, Explorer, run as explore};
-use crate::geometry::Polygon;
 use crate::ros::display::status_sentence;
 use crate::ros::program::{has_helped, run_program};
 use crate::ros::{Node, RosRobot, stop};
+use areas::AreaInputs;
 use connect::connect;
 use controls::{Controls, Request};
 use outputs::Outputs;
@@ -47,7 +48,8 @@ fn help() -> String {
          \x20 _move_base:=move_base        the action server\n\
          \x20 _map_file:=FILE              save the map there at the end\n\
          \x20 _exit_when_done:=true        leave at the end: 0 done, 1 failed, 3 frontiers were left\n\
-         \x20 _region:=[[X, Y], ...]       explore inside a polygon alone, metres in the map's frame\n\
+         \x20 _region:=[[X, Y], ...]       explore and keep inside a polygon, metres in the map's frame\n\
+         \x20 _no_go:=[[[X, Y], ...], ...] keep out of polygons\n\
          \x20 _explorer:={{...}}             any setting of `frontier explore --print-config`\n\n\
          docs/ros.md has all of them, the topics, and what happens when a part of the stack goes away.\n"
     )
@@ -70,6 +72,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     saver.check();
     let outputs = Outputs::offer(node, &settings, &connected, &saver)?;
     let controls = Controls::listen(node, &settings, &connected)?;
+    let areas = AreaInputs::listen(node, &settings, &connected)?;
     let (cancel, last_saver) = (std::mem::replace(&mut connected.cancel, Box::new(|| ())), Arc::clone(&saver));
     stop::set_will(move || {
         cancel();
@@ -83,10 +86,8 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
         params.map_topic,
         if connected.drives_itself { "our own controller" } else { &params.move_base }
     ));
-    let mut region = preset.explorer.region.clone();
     loop {
-        let (end, last_region) = run_once(node, &settings, &mut robot, &outputs, &controls, region)?;
-        region = last_region;
+        let end = run_once(node, &settings, &mut robot, &outputs, &controls, &areas)?;
         let is_saved = saver.save();
         if !is_saved {
             outputs.tell_status();
@@ -100,9 +101,8 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
             settle(code);
             return Ok(code);
         }
-        match controls.wait_for_another_run(node) {
-            Some(Request::Region(new)) => region = new,
-            Some(Request::Resume) => {}
+        match controls.wait_for_another_run(node, &areas) {
+            Some(Request::Areas | Request::Resume) => {}
             None => {
                 let code = u8::from(!saver.save() || node.has_failed());
                 settle(code);
@@ -119,21 +119,22 @@ fn run_once(
     robot: &mut RosRobot,
     outputs: &Outputs,
     controls: &Controls,
-    region: Option<Polygon>,
-) -> Result<(End, Option<Polygon>), ExploreNodeError> {
+    areas: &AreaInputs,
+) -> Result<End, ExploreNodeError> {
     let Settings { preset, robot: body, .. } = settings;
     let mut explorer = Explorer::new(preset.explorer.clone(), &body.traits())?;
-    explorer.set_region(region);
+    explorer.set_areas(areas.current());
+    robot.set_areas(&areas.current());
     if let Some(planner) = controls.asking_planner(node, settings) {
         explorer.set_planner(planner);
     }
-    let mut watcher = NodeWatcher::new(node, outputs, controls, settings.preset.explorer.thresholds);
+    let mut watcher = NodeWatcher::new(node, outputs, controls, areas, settings.preset.explorer.thresholds);
     let end = explore(robot, &mut explorer, &mut watcher);
     robot.stop();
     let status = watcher.finish(robot, &explorer, &end);
     node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
     tell_latency(node, robot.latencies_ms());
-    Ok((end, explorer.region().cloned()))
+    Ok(end)
 }
 
 /// Says how long it took from maps to the goals that they led to.

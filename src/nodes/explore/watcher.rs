@@ -1,11 +1,12 @@
 //! Looks on while the node explores: shows every decision and keeps the figures of the
 //! status.
 
+use super::areas::AreaInputs;
 use super::controls::Controls;
 use super::outputs::Outputs;
 use crate::explore::{Counts, Decision, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
-use crate::grid::{LiveCensus, Thresholds};
+use crate::grid::{AreaCensus, Thresholds};
 use crate::robot::Observation;
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
@@ -20,11 +21,12 @@ pub struct NodeWatcher<'a> {
     node: &'a Node,
     outputs: &'a Outputs,
     controls: &'a Controls,
+    areas: &'a AreaInputs,
     began_s: Option<f64>,
     now_s: f64,
     last_pose: Option<Pose>,
     distance_m: f64,
-    census: LiveCensus,
+    census: AreaCensus,
     known_area_m2: f64,
     free_area_m2: f64,
     frontiers: usize,
@@ -38,16 +40,25 @@ pub struct NodeWatcher<'a> {
 
 impl<'a> NodeWatcher<'a> {
     /// A watcher of a run that begins now; areas are counted by these thresholds.
-    pub fn new(node: &'a Node, outputs: &'a Outputs, controls: &'a Controls, thresholds: Thresholds) -> Self {
+    pub fn new(
+        node: &'a Node,
+        outputs: &'a Outputs,
+        controls: &'a Controls,
+        areas: &'a AreaInputs,
+        thresholds: Thresholds,
+    ) -> Self {
+        let mut census = AreaCensus::new(thresholds);
+        census.set_areas(&areas.current());
         Self {
             node,
             outputs,
             controls,
+            areas,
             began_s: None,
             now_s: 0.0,
             last_pose: None,
             distance_m: 0.0,
-            census: LiveCensus::new(thresholds),
+            census,
             known_area_m2: 0.0,
             free_area_m2: 0.0,
             frontiers: 0,
@@ -130,16 +141,19 @@ const fn phase_sentence(phase: Phase) -> Option<&'static str> {
 }
 
 impl Watcher<RosRobot> for NodeWatcher<'_> {
-    fn before_step(&mut self, _: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
+    fn before_step(&mut self, robot: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
         self.now_s = observation.stamp_s;
         self.began_s.get_or_insert(self.now_s);
-        if let Some(region) = self.controls.new_region() {
-            explorer.set_region(region);
+        if let Some(areas) = self.areas.take_new() {
+            self.census.set_areas(&areas);
+            robot.set_areas(&areas);
+            explorer.set_areas(areas);
             self.region_shown = false;
         }
         if !self.region_shown {
             self.region_shown = true;
             self.outputs.show_region(explorer, &self.frame);
+            self.areas.show();
         }
     }
 
@@ -155,6 +169,7 @@ impl Watcher<RosRobot> for NodeWatcher<'_> {
         }
         if let (Some(record), Some(map)) = (&decision.record, robot.received_map()) {
             self.frontiers = record.candidates.len();
+            self.areas.show_blacklist(explorer.blacklisted());
             record.why.clone_into(&mut self.message);
             // A goal that is kept is no news.
             if record.goal.is_none() || record.goal != self.last_goal {
