@@ -48,6 +48,8 @@ pub struct Audited {
     pub in_pocket: bool,
     /// Frontiers to which ways lead that the areas forbid, and no others.
     pub fenced_off: usize,
+    /// Whether there are no-go areas.
+    pub has_no_go: bool,
     /// Whether the robot stands outside of its areas and no known way leads in; and then whether it
     /// stands in a no-go area, or beside one.
     pub locked_out: Option<bool>,
@@ -140,7 +142,9 @@ impl Decided {
             );
             (EndReason::OutsideRegion, message)
         } else if left.outside_region > 0 {
-            (EndReason::OutsideRegion, format!("all {} frontiers left lie outside the region", left.outside_region))
+            let no_go = if audit.has_no_go { " or in no-go areas" } else { "" };
+            let message = format!("all {} frontiers left lie outside the region{no_go}", left.outside_region);
+            (EndReason::OutsideRegion, message)
         } else if left.frontiers == 0 {
             (EndReason::Complete, "no frontier is left".to_owned())
         } else {

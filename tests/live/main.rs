@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
+mod areas;
 mod fake_publisher;
 mod peers;
 mod relay;
@@ -77,7 +78,7 @@ fn main() {
 }
 
 fn all() -> impl Iterator<Item = &'static Test> {
-    TESTS.iter().chain(senses::TESTS).chain(peers::TESTS)
+    TESTS.iter().chain(areas::TESTS).chain(senses::TESTS).chain(peers::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {

@@ -80,19 +80,20 @@ impl Lookout {
                 place.is_some_and(|place| place.distance_to(a.target) <= near_m)
             };
             barred = weighed.assessed.iter().filter(unreachable).filter(|a| could_see(a)).count();
-            let radius_m = situation.settings.goal.search_radius_m;
-            let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
             let mut is_fenced_off = |a: &&Assessed| {
-                let place = |field: &PathField| standing.goal(field, robot, a.target, &search);
-                a.spent_m.is_none() && has_areas && widely.and_then(place).is_some()
+                // Where the robot looked at it from as near as it may, a nearer place counts.
+                let radius_m = a.spent_m.map_or(radius_m, |spent_m| spent_m - SAME_PLACE_M);
+                let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
+                has_areas && radius_m > 0.0 && widely.and_then(|f| standing.goal(f, robot, a.target, &search)).is_some()
             };
             fenced_off = weighed.assessed.iter().filter(unreachable).filter(|a| is_fenced_off(a)).count();
         }
+        let has_no_go = !situation.settings.no_go.is_empty();
         let locked_out = match self.costs.fence.whereabouts() {
             Whereabouts::LockedOut { no_go } if has_areas => Some(no_go),
             _ => None,
         };
-        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket, fenced_off, locked_out }
+        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket, fenced_off, has_no_go, locked_out }
     }
 }
 
