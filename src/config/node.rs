@@ -8,7 +8,7 @@ use super::merge::merge;
 use super::names::unknown;
 use super::params::{ParamError, read_params};
 use super::preset::{Preset, PresetError};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::Polygon;
 use crate::grid::Thresholds;
 use crate::range::OutOfRange;
 use crate::selection::{ExploreLiteConfig, SelectorConfig};
@@ -27,6 +27,14 @@ pub enum NodeParamsError {
     /// A region that is none.
     #[error("parameter ~region: {0}")]
     Region(String),
+    /// A no-go area that is none.
+    #[error("parameter ~no_go: area {index}: {why}")]
+    NoGo {
+        /// Which one, from 0.
+        index: usize,
+        /// What is wrong.
+        why: String,
+    },
     /// The settings that come out are no preset.
     #[error("parameter ~{0}")]
     Preset(#[from] PresetError),
@@ -106,8 +114,10 @@ pub struct NodeParams {
     /// Velocity commands of our own get the robot away from what stands too near, guarded
     /// by the scan, when goals fail from one place again and again.
     pub back_off: bool,
-    /// Corners `[x, y]` in metres of the map frame: only frontiers inside are explored.
+    /// Corners `[x, y]` in metres of the map frame: the robot explores and keeps to the inside.
     pub region: Option<Vec<[f64; 2]>>,
+    /// Areas that the robot keeps out of, each by its corners.
+    pub no_go: Option<Vec<Vec<[f64; 2]>>>,
     /// Explore at once; where not, `~start` or a goal of the action begins.
     pub autostart: bool,
     /// How long goals of others, such as those clicked in RViz, are left to their end, seconds.
@@ -161,6 +171,7 @@ impl Default for NodeParams {
             turn_by: TurnBy::default(),
             back_off: true,
             region: None,
+            no_go: None,
             autostart: true,
             yield_to_others: 300.0,
             map_file: String::new(),
@@ -250,9 +261,14 @@ impl NodeParams {
             preset.explorer.thresholds = Thresholds { free_max: 99, occupied_min: 100 };
         }
         if let Some(corners) = &self.region {
-            let corners = corners.iter().map(|&[x, y]| Point::new(x, y)).collect();
-            let region = Polygon::new(corners).map_err(|e| NodeParamsError::Region(e.to_string()))?;
+            let region = Polygon::try_from(corners.clone()).map_err(|e| NodeParamsError::Region(e.to_string()))?;
             preset.explorer.region = Some(region);
+        }
+        if let Some(areas) = &self.no_go {
+            let area = |(index, corners): (usize, &Vec<[f64; 2]>)| {
+                Polygon::try_from(corners.clone()).map_err(|e| NodeParamsError::NoGo { index, why: e.to_string() })
+            };
+            preset.explorer.no_go = areas.iter().enumerate().map(area).collect::<Result<_, _>>()?;
         }
         preset.validate()?;
         Ok(preset)

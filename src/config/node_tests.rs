@@ -73,6 +73,8 @@ fn mistakes_are_named_with_what_is_allowed() {
     assert!(deep.starts_with("parameter ~explorer.goal.serch: unknown field `serch`"), "{deep}");
     let region = error(json!({"region": [[0, 0], [1, 1]]}));
     assert!(region.starts_with("parameter ~region: "), "{region}");
+    let no_go = error(json!({"no_go": [[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1]]]}));
+    assert_eq!(no_go, "parameter ~no_go: area 1: an area needs at least 3 corners, and 2 were given");
     assert_eq!(error(json!({"map_topic": ""})), "parameter ~map_topic: is empty: must be a name");
 }
 

@@ -152,7 +152,9 @@ impl Preset {
     #[must_use]
     pub fn navigator(&self, body: &Body) -> Navigator {
         let NavigationSettings { navigator, controller, .. } = self.navigation;
-        Navigator::new(navigator, self.explorer.planner.build(body), controller.build(body), body)
+        let mut navigator = Navigator::new(navigator, self.explorer.planner.build(body), controller.build(body), body);
+        navigator.set_areas(self.explorer.areas());
+        navigator
     }
 }
 

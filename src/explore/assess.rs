@@ -8,9 +8,10 @@ use super::sight::Sights;
 use super::standing::{StandingGoal, StandingSearch};
 use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose};
-use crate::grid::{Cell, GridInfo, INSCRIBED_COST, LETHAL_COST, OccupancyGrid};
-use crate::planning::PathField;
+use crate::grid::{AreaCells, Cell, GridInfo, INSCRIBED_COST, LETHAL_COST, OccupancyGrid};
+use crate::planning::{Fenced, PathField};
 use crate::selection::{Candidate, GoalSelector, Needs, SelectionContext};
+use std::sync::Arc;
 
 /// A frontier, what is recorded of it, and the candidate if the robot could go there.
 #[derive(Debug)]
@@ -50,6 +51,10 @@ pub struct Assessor<'a> {
     pub awaits_map: bool,
     /// Where the robot is.
     pub robot: Pose,
+    /// The map's cells by the areas that they lie in, if there are areas.
+    pub areas: Option<Arc<AreaCells>>,
+    /// Where the robot may be, where it may not be everywhere.
+    pub fenced: Option<Fenced>,
 }
 
 /// Where to go for a frontier.
@@ -96,9 +101,9 @@ impl Assessor<'_> {
 
     fn aim(&self, frontier: &Frontier, standing: &mut StandingSearch) -> Aim {
         let (settings, info) = (self.settings, self.grid.info());
-        let target = settings.goal.representative.of(frontier, info, self.robot.position());
+        let target = self.inside(frontier, settings.goal.representative.of(frontier, info, self.robot.position()));
         let left = |status, taboo| Aim { target, goal: None, status, taboo, spent_m: None };
-        if settings.region.as_ref().is_some_and(|region| !region.contains(target)) {
+        if self.areas.as_ref().is_some_and(|areas| !frontier.cells.iter().any(|&cell| areas.is_inside(cell))) {
             return left(CandidateStatus::OutsideRegion, None);
         }
         if self.field.is_some_and(|field| is_too_narrow(frontier, info, field)) {
@@ -159,7 +164,7 @@ impl Assessor<'_> {
     }
 
     fn place_for(&self, target: Point, standing: &mut StandingSearch) -> Option<Pose> {
-        self.place(target, standing, &|place| self.blacklist.refuses(place))
+        self.place(target, standing, &|place| self.blacklist.refuses(place) || !self.allows(place))
     }
 
     fn place(&self, target: Point, standing: &mut StandingSearch, refused: &dyn Fn(Point) -> bool) -> Option<Pose> {
@@ -171,7 +176,22 @@ impl Assessor<'_> {
 
     /// Whether there would be a place to stand but for those that have failed.
     fn has_failed(&self, target: Point, standing: &mut StandingSearch) -> bool {
-        self.place(target, standing, &|_| false).is_some()
+        self.place(target, standing, &|place| !self.allows(place)).is_some()
+    }
+
+    fn allows(&self, place: Point) -> bool {
+        self.fenced.as_ref().is_none_or(|fenced| fenced.allows(place))
+    }
+
+    /// A representative point inside of the areas: the frontier's cell that is nearest to one outside.
+    fn inside(&self, frontier: &Frontier, target: Point) -> Point {
+        let info = self.grid.info();
+        if self.areas.as_ref().is_none_or(|areas| areas.is_inside(info.cell_at(target))) {
+            return target;
+        }
+        let away_m = |point: &Point| nalgebra::distance(point, &target);
+        let centers = frontier.cells.iter().map(|&cell| info.center(cell));
+        centers.min_by(|a, b| away_m(a).total_cmp(&away_m(b))).unwrap_or(target)
     }
 
     fn is_here(&self, goal: &Pose) -> bool {

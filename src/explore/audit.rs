@@ -11,7 +11,7 @@ use crate::frontier::{
 };
 use crate::geometry::Pose;
 use crate::grid::{Costmap, Inflation, Neighbourhood, OccupancyGrid, Thresholds};
-use crate::planning::{Driven, PathField};
+use crate::planning::{Driven, Fence, PathField};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
@@ -21,6 +21,7 @@ pub struct Audit {
     detector: Bitplane,
     thresholds: Thresholds,
     passage_radius_m: f64,
+    min_size_m: f64,
 }
 
 impl Audit {
@@ -28,14 +29,22 @@ impl Audit {
     #[must_use]
     pub fn new(robot: &RobotTraits, thresholds: Thresholds) -> Self {
         let footprint = &robot.body.footprint;
+        let min_size_m = 2.0 * footprint.passage_radius_m();
         let params = DetectorParams {
             neighbours: Neighbourhood::Eight,
             reachability: Reachability::WallsBlock,
-            min_size_m: 2.0 * footprint.passage_radius_m(),
+            min_size_m,
             thresholds,
             ..DetectorParams::default()
         };
-        Self { detector: Bitplane::new(params), thresholds, passage_radius_m: footprint.passage_radius_m() }
+        let passage_radius_m = footprint.passage_radius_m();
+        Self { detector: Bitplane::new(params), thresholds, passage_radius_m, min_size_m }
+    }
+
+    /// The length from which on a frontier counts, metres.
+    #[must_use]
+    pub const fn min_size_m(&self) -> f64 {
+        self.min_size_m
     }
 
     /// The frontiers that are longer than the robot is wide.
@@ -47,9 +56,15 @@ impl Audit {
     }
 
     /// Where the robot could get to if it needed no room beside its body, neither padding
-    /// nor room to turn; `None` where it stands in an obstacle.
+    /// nor room to turn, and kept to its areas; `None` where it stands in an obstacle.
     #[must_use]
-    pub fn widest_reach(&self, grid: &OccupancyGrid, driven: &Driven, robot: &Pose) -> Option<PathField> {
+    pub fn widest_reach(
+        &self,
+        grid: &OccupancyGrid,
+        driven: &Driven,
+        fence: &mut Fence,
+        robot: &Pose,
+    ) -> Option<PathField> {
         let inflation = Inflation {
             inscribed_radius_m: self.passage_radius_m,
             clear_radius_m: 0.0,
@@ -57,6 +72,6 @@ impl Audit {
             cost_scaling_factor: 1.0,
         };
         let costmap = Arc::new(Costmap::inflate(grid, &self.thresholds, &inflation));
-        PathField::reach_only(driven.open(&costmap, robot), robot).ok()
+        PathField::reach_only(fence.close(&driven.open(&costmap, robot), robot), robot).ok()
     }
 }

@@ -1,23 +1,26 @@
 //! How much may lie behind the frontiers that are left.
 
 use crate::frontier::Frontier;
-use crate::grid::{Cell, CellState, Neighbourhood, OccupancyGrid, Thresholds};
+use crate::grid::{AreaCells, Cell, CellState, Neighbourhood, OccupancyGrid, Thresholds};
 use std::collections::{HashSet, VecDeque};
 
 /// So far into the unknown is counted, metres: what a room of the size of a closet needs.
 const DEPTH_M: f64 = 1.5;
 
 /// The unknown area that hangs together with the frontiers, at most 1.5 m behind them,
-/// square metres. O(frontier cells x depth).
+/// square metres; inside of areas, if there are some. O(frontier cells x depth).
 #[must_use]
 pub fn unknown_behind_m2<'a>(
     frontiers: impl Iterator<Item = &'a Frontier>,
     grid: &OccupancyGrid,
     thresholds: &Thresholds,
+    inside: Option<&AreaCells>,
 ) -> f64 {
     let info = grid.info();
     let depth = info.cells(DEPTH_M).ceil() as u32;
-    let is_unknown = |cell: Cell| grid.state(cell, thresholds) == CellState::Unknown;
+    let is_unknown = |cell: Cell| {
+        grid.state(cell, thresholds) == CellState::Unknown && inside.is_none_or(|cells| cells.is_inside(cell))
+    };
     let mut met: HashSet<Cell> = HashSet::new();
     let mut queue: VecDeque<(Cell, u32)> = VecDeque::new();
     for &cell in frontiers.flat_map(|frontier| &frontier.cells) {
@@ -48,7 +51,7 @@ mod tests {
             circle: None,
         };
         let area =
-            |frontiers: &[&Frontier]| unknown_behind_m2(frontiers.iter().copied(), &grid, &Thresholds::default());
+            |frontiers: &[&Frontier]| unknown_behind_m2(frontiers.iter().copied(), &grid, &Thresholds::default(), None);
         // Two cells deep at 1 m a cell, from the frontier and what is beside it: columns 2 to 4.
         assert_eq!((area(&[]), area(&[&frontier])), (0.0, 6.0));
         assert_eq!(area(&[&frontier, &frontier]), 6.0, "nothing is counted twice");

@@ -2,11 +2,26 @@
 //!
 //! A round is the time until nothing is left to try. What failed stays taboo for the
 //! round, however long it lasts, and is forgiven at its end, once more each time: a taboo
-//! that expires by the clock comes back before the others have had their turn.
+//! that expires by the clock comes back before the others have had their turn. The rests
+//! between rounds grow (`trouble.rs`), and so does the circle around a target that failed
+//! round after round: of the targets in it, those that have failed in this round too are left
+//! with it. What has not been tried in this round is tried, so that no circle hides a frontier,
+//! and what is left alone counts as failed, so that no run ends `complete` over it.
+//!
+//! Where the map has opened around a failure since, by a door or by a better look, it is
+//! forgotten at once; each time the map must open twice as far, as maps tremble.
+
+mod listed;
+mod surroundings;
+
+pub use listed::{Blacklisted, Forgiven};
 
 use crate::geometry::Point;
+use crate::grid::Thresholds;
+use crate::robot::MapSnapshot;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use surroundings::Surroundings;
 
 /// How failures and vain visits become taboo.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -39,11 +54,32 @@ pub enum Taboo {
     Exhausted,
 }
 
+/// A goal that failed.
+#[derive(Clone, Copy, Debug)]
+pub struct Failure<'a> {
+    /// What was to be seen.
+    pub target: Point,
+    /// Where the robot was sent.
+    pub place: Point,
+    /// Where it was when that failed.
+    pub from: Point,
+    /// Why, as its navigation or the explorer says.
+    pub why: &'a str,
+}
+
 /// One frontier's point and its history.
 #[derive(Clone, Debug)]
 struct Entry {
     target: Point,
     failures: u32,
+    /// Of these, how many are of this round.
+    this_round: u32,
+    /// In how many earlier rounds it became taboo.
+    rounds: u32,
+    /// How often a failure was forgotten as the map had opened.
+    openings: u32,
+    place: Point,
+    why: String,
 }
 
 /// A visit in vain.
@@ -60,32 +96,47 @@ struct Refused {
     /// Where the robot was when it failed.
     from: Point,
     target: Point,
+    /// What the map showed around the place and the target then.
+    around: [Surroundings; 2],
 }
 
 /// The frontiers and places that failed or were visited.
 #[derive(Clone, Debug)]
 pub struct Blacklist {
     config: TabooConfig,
+    thresholds: Thresholds,
     entries: Vec<Entry>,
     refused: Vec<Refused>,
     visits: Vec<Visit>,
+    /// The version of the map that was looked at last.
+    version: u64,
 }
 
 /// Places to stand within this distance are the same, and one nearer to a frontier by more is
 /// worth another visit, metres.
 pub const SAME_PLACE_M: f64 = 0.25;
+/// The circle around a target grows by this share of itself with each round that it failed in, so
+/// many times at most.
+const GROWTH: f64 = 0.5;
+const MOST_GROWTHS: u32 = 4;
 
 impl Blacklist {
-    /// An empty list.
+    /// An empty list; the thresholds tell what is open on the map.
     #[must_use]
-    pub const fn new(config: TabooConfig) -> Self {
-        Self { config, entries: Vec::new(), refused: Vec::new(), visits: Vec::new() }
+    pub const fn new(config: TabooConfig, thresholds: Thresholds) -> Self {
+        Self { config, thresholds, entries: Vec::new(), refused: Vec::new(), visits: Vec::new(), version: 0 }
     }
 
-    /// Driving from a place to another one, to see a target, failed.
-    pub fn record_failure(&mut self, target: Point, place: Point, from: Point) {
-        self.entry(target).failures += 1;
-        self.refused.push(Refused { place, from, target });
+    /// A goal failed; the map is the one that was there.
+    pub fn record_failure(&mut self, failure: &Failure<'_>, map: Option<&MapSnapshot>) {
+        let Failure { target, place, from, why } = *failure;
+        let around = [place, target].map(|point| Surroundings::of(map, point, &self.thresholds));
+        let entry = self.entry(target);
+        entry.failures += 1;
+        entry.this_round += 1;
+        entry.place = place;
+        why.clone_into(&mut entry.why);
+        self.refused.push(Refused { place, from, target, around });
     }
 
     /// The robot was at a place to see a target, and a newer map shows no change.
@@ -96,8 +147,10 @@ impl Blacklist {
     /// Whether driving to a frontier with this point has failed too often in this round.
     #[must_use]
     pub fn has_failed(&self, target: Point) -> bool {
-        let is_near = |entry: &Entry| nalgebra::distance(&entry.target, &target) <= self.config.radius_m;
-        self.entries.iter().any(|entry| is_near(entry) && entry.failures >= self.config.max_failures)
+        let away_m = |entry: &Entry| nalgebra::distance(&entry.target, &target);
+        let is_tried = self.entries.iter().any(|e| away_m(e) <= self.config.radius_m && e.this_round > 0);
+        let is_near = |e: &Entry| away_m(e) <= if is_tried { self.radius_m(e) } else { self.config.radius_m };
+        self.entries.iter().any(|e| self.is_taboo(e) && is_near(e))
     }
 
     /// Whether the robot was at a place often enough, or nearer to the target, without seeing
@@ -127,8 +180,10 @@ impl Blacklist {
             return;
         }
         self.refused.clear();
-        let last_chance = self.config.max_failures.saturating_sub(1);
+        let (max, last_chance) = (self.config.max_failures, self.config.max_failures.saturating_sub(1));
         for entry in &mut self.entries {
+            entry.rounds += u32::from(entry.failures >= max);
+            entry.this_round = 0;
             entry.failures = entry.failures.min(last_chance);
         }
     }
@@ -139,23 +194,85 @@ impl Blacklist {
             self.refused.drain(..).partition(|refused| nalgebra::distance(&refused.from, &from) <= radius_m);
         self.refused = kept;
         for refused in forgiven {
-            let entry = self.entry(refused.target);
-            entry.failures = entry.failures.saturating_sub(1);
+            self.forget(refused.target);
         }
     }
 
-    /// Forgets everything; returns how many frontiers and places were left alone.
+    /// Forgets what failed where the map has opened since, unless failures are final; the targets
+    /// that are left alone no longer. O(failures of this round), and a look at two squares of two
+    /// metres for each where the map changed there.
+    pub fn look_again(&mut self, map: &MapSnapshot) -> Vec<Point> {
+        let changed = map.changes.since(self.version);
+        self.version = map.version();
+        if self.config.is_final || self.refused.is_empty() || changed.is_some_and(|changed| changed.is_empty()) {
+            return Vec::new();
+        }
+        let (mut opened, mut kept) = (Vec::new(), Vec::new());
+        for refused in std::mem::take(&mut self.refused) {
+            let openings = self.entry(refused.target).openings;
+            let has_opened = |(before, point): (&Surroundings, Point)| {
+                before.has_opened(map, point, changed.as_ref(), &self.thresholds, openings)
+            };
+            let points = [refused.place, refused.target];
+            let is_open = refused.around.iter().zip(points).any(has_opened);
+            if is_open { opened.push(refused) } else { kept.push(refused) }
+        }
+        self.refused = kept;
+        let was_taboo: Vec<Point> =
+            opened.iter().map(|refused| refused.target).filter(|&target| self.has_failed(target)).collect();
+        for refused in opened {
+            self.forget(refused.target);
+            self.entry(refused.target).openings += 1;
+        }
+        was_taboo.into_iter().filter(|&target| !self.has_failed(target)).collect()
+    }
+
+    /// What failed in this round and is not forgiven yet.
+    #[must_use]
+    pub fn listed(&self) -> Vec<Blacklisted> {
+        let is_listed = |entry: &&Entry| entry.this_round > 0;
+        let listed = |entry: &Entry| Blacklisted {
+            target: entry.target,
+            place: entry.place,
+            radius_m: self.radius_m(entry),
+            failures: entry.this_round,
+            is_left_alone: self.is_taboo(entry),
+            why: entry.why.clone(),
+            forgiven: if self.config.is_final { Forgiven::Never } else { Forgiven::AfterRound },
+        };
+        self.entries.iter().filter(is_listed).map(listed).collect()
+    }
+
+    /// Forgets everything, also visits in vain and what is final; how many targets had failed in
+    /// this round.
     pub fn clear(&mut self) -> usize {
-        let left_alone = self.entries.len() + self.visits.len();
-        (self.entries, self.refused, self.visits) = (Vec::new(), Vec::new(), Vec::new());
-        left_alone
+        let failed = self.entries.iter().filter(|entry| entry.this_round > 0).count();
+        *self = Self { version: self.version, ..Self::new(self.config, self.thresholds) };
+        failed
+    }
+
+    const fn is_taboo(&self, entry: &Entry) -> bool {
+        entry.failures >= self.config.max_failures
+    }
+
+    /// How far around a target those that failed too are left with it, metres.
+    fn radius_m(&self, entry: &Entry) -> f64 {
+        self.config.radius_m * (1.0 + GROWTH * f64::from(entry.rounds.min(MOST_GROWTHS)))
+    }
+
+    /// Takes one failure off a target.
+    fn forget(&mut self, target: Point) {
+        let entry = self.entry(target);
+        entry.failures = entry.failures.saturating_sub(1);
+        entry.this_round = entry.this_round.saturating_sub(1);
     }
 
     fn entry(&mut self, target: Point) -> &mut Entry {
         let radius_m = self.config.radius_m;
         let known = self.entries.iter().position(|e| nalgebra::distance(&e.target, &target) <= radius_m);
         let index = known.unwrap_or_else(|| {
-            self.entries.push(Entry { target, failures: 0 });
+            let (place, why) = (target, String::new());
+            self.entries.push(Entry { target, failures: 0, this_round: 0, rounds: 0, openings: 0, place, why });
             self.entries.len() - 1
         });
         &mut self.entries[index]
@@ -163,54 +280,5 @@ impl Blacklist {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HERE: Point = Point::new(9.0, 9.0);
-
-    #[test]
-    fn failures_add_up_for_the_round_and_are_forgiven_after_it() {
-        let mut list = Blacklist::new(TabooConfig { max_failures: 2, ..TabooConfig::default() });
-        let (target, near) = (Point::new(1.0, 1.0), Point::new(1.2, 1.0));
-        let stand = Point::new(0.5, 1.0);
-        list.record_failure(target, stand, HERE);
-        assert_eq!((list.has_failed(target), list.refuses(stand)), (false, true));
-        list.record_failure(near, Point::new(0.5, 2.0), HERE);
-        assert!(list.has_failed(near));
-        assert!(!list.has_failed(Point::new(2.0, 2.0)));
-        list.forgive_failures();
-        assert_eq!((list.has_failed(near), list.refuses(stand)), (false, false), "one more chance");
-        list.record_failure(near, stand, HERE);
-        assert!(list.has_failed(near));
-        let mut for_good = Blacklist::new(TabooConfig { max_failures: 1, is_final: true, ..TabooConfig::default() });
-        for_good.record_failure(target, stand, HERE);
-        for_good.forgive_failures();
-        assert!(for_good.has_failed(target));
-    }
-
-    #[test]
-    fn what_failed_from_where_the_robot_was_wedged_is_not_to_blame() {
-        let mut list = Blacklist::new(TabooConfig { max_failures: 1, ..TabooConfig::default() });
-        let (target, other) = (Point::new(1.0, 1.0), Point::new(5.0, 5.0));
-        list.record_failure(target, target, HERE);
-        list.record_failure(other, other, Point::new(0.0, 0.0));
-        list.forgive_from(Point::new(9.1, 9.0), 0.3);
-        assert_eq!((list.has_failed(target), list.refuses(target)), (false, false));
-        assert_eq!((list.has_failed(other), list.refuses(other)), (true, true));
-    }
-
-    #[test]
-    fn vain_visits_do_not_expire() {
-        let mut list = Blacklist::new(TabooConfig::default());
-        let stand = Point::new(1.0, 0.0);
-        list.record_visit(Point::new(0.0, 0.0), stand);
-        list.record_visit(Point::new(0.1, 0.0), stand);
-        list.forgive_failures();
-        let target = Point::new(0.0, 0.1);
-        assert!(list.is_spent(stand, target, false));
-        assert!(list.is_spent(Point::new(-1.5, 0.0), target, false), "no closer");
-        assert!(!list.is_spent(Point::new(0.5, 0.0), target, false), "a closer look");
-        let other = Point::new(2.0, 0.0);
-        assert!(!list.is_spent(stand, other, false) && list.is_spent(stand, other, true));
-    }
-}
+#[path = "blacklist_tests.rs"]
+mod tests;

@@ -35,7 +35,7 @@ pub struct Decided {
 }
 
 /// What the check before an end found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Audited {
     /// Frontiers that the robot could be sent to, and the preset's rules forbid it.
     pub forbidden: usize,
@@ -46,6 +46,31 @@ pub struct Audited {
     pub barred: usize,
     /// Whether the robot stands in a pocket: a place too small to be one of its own.
     pub in_pocket: bool,
+    /// Frontiers to which ways lead that the areas forbid, and no others.
+    pub fenced_off: usize,
+    /// Whether there are no-go areas.
+    pub has_no_go: bool,
+    /// Whether the robot stands outside of its areas and no known way leads in; and then whether it
+    /// stands in a no-go area, or beside one.
+    pub locked_out: Option<bool>,
+}
+
+impl Audited {
+    /// What the areas forbid, to be added to a sentence.
+    pub fn forbidden_by_areas(&self) -> Option<String> {
+        let fenced_off = || (self.fenced_off > 0).then(|| format!("{} beyond what the areas forbid", self.fenced_off));
+        let parts = [self.locked_out.map(|no_go| no_way(no_go).to_owned()), fenced_off()];
+        let parts: Vec<String> = parts.into_iter().flatten().collect();
+        (!parts.is_empty()).then(|| format!("; {}", parts.join("; ")))
+    }
+}
+
+const fn no_way(no_go: bool) -> &'static str {
+    if no_go {
+        "the robot stands in a no-go area, or beside one, and no known way leads out"
+    } else {
+        "the robot stands outside of its region, and no known way leads in"
+    }
 }
 
 impl Decided {
@@ -85,7 +110,7 @@ impl Decided {
     /// got away from where it is for long.
     pub fn why_nothing_is_left(&self, is_wedged: bool) -> (EndReason, String) {
         let left = &self.left_behind;
-        let audit = self.audit.unwrap_or(Audited { forbidden: 0, forbidden_m: 0.0, barred: 0, in_pocket: false });
+        let audit = self.audit.unwrap_or_default();
         let behind = format!("{:.1} m of frontier, {:.1} m2 or more behind it", left.length_m, left.area_m2);
         let blocked = left.failed + audit.barred;
         if (left.unreachable > 0 && audit.in_pocket) || (left.failed > 0 && is_wedged) {
@@ -107,8 +132,19 @@ impl Decided {
                 audit.forbidden, audit.forbidden_m
             );
             (EndReason::PresetSeesNoMore, message)
+        } else if let Some(no_go) = audit.locked_out {
+            (EndReason::AllUnreachable, format!("{}: {behind}", no_way(no_go)))
+        } else if audit.fenced_off > 0 {
+            let message = format!(
+                "all frontiers left lie outside the region or in no-go areas ({}), or beyond what these forbid ({}): \
+                 {behind}",
+                left.outside_region, audit.fenced_off
+            );
+            (EndReason::OutsideRegion, message)
         } else if left.outside_region > 0 {
-            (EndReason::OutsideRegion, format!("all {} frontiers left lie outside the region", left.outside_region))
+            let no_go = if audit.has_no_go { " or in no-go areas" } else { "" };
+            let message = format!("all {} frontiers left lie outside the region{no_go}", left.outside_region);
+            (EndReason::OutsideRegion, message)
         } else if left.frontiers == 0 {
             (EndReason::Complete, "no frontier is left".to_owned())
         } else {

@@ -22,7 +22,7 @@ use super::map_watch::MapWatch;
 use super::record::{Counts, DecisionRecord, End, EndReason, LeftBehind, SeenFrontiers};
 use super::settings::{ExplorerSettings, SettingsError};
 use super::sight::Sights;
-use super::state::{AfterTurn, Decision, State, has_ended, has_succeeded};
+use super::state::{AfterTurn, Decision, State, has_ended};
 use super::traits::RobotTraits;
 use super::trouble::Trouble;
 use crate::geometry::Pose;
@@ -62,6 +62,8 @@ pub struct Explorer {
     at_rest_since: Option<u64>,
     left_behind: LeftBehind,
     notice: Option<String>,
+    /// Whether it was told that the robot stands outside of its areas.
+    outside_told: bool,
     /// When the age of a stale map was last told, seconds.
     stale_told_s: f64,
     last_pose: Option<(f64, Pose)>,
@@ -77,7 +79,7 @@ impl Explorer {
         settings.validate()?;
         Ok(Self {
             lookout: Lookout::new(&settings, robot),
-            blacklist: Blacklist::new(settings.taboo),
+            blacklist: Blacklist::new(settings.taboo, settings.thresholds),
             settings,
             watch: MapWatch::new(&robot.sight),
             sights: Sights::new(robot.sight),
@@ -97,6 +99,7 @@ impl Explorer {
             at_rest_since: None,
             left_behind: LeftBehind::default(),
             notice: None,
+            outside_told: false,
             stale_told_s: f64::NEG_INFINITY,
             last_pose: None,
             top_speed_mps: robot.body.limits.max_linear_mps,
@@ -206,7 +209,7 @@ impl Explorer {
                         return None;
                     }
                     if let AfterTurn::LookedAt(target) = then {
-                        self.look_is_over(target, pose, has_succeeded(observation, id));
+                        self.look_is_over(target, pose, observation, id);
                     }
                     self.state = match then {
                         AfterTurn::Settle | AfterTurn::LookedAt(_) => State::Settling { since_s: now_s },

@@ -14,6 +14,9 @@ use std::f64::consts::{PI, TAU};
 mod teleporter;
 use teleporter::{Teleporter, point_robot};
 
+#[path = "explorer_areas_tests.rs"]
+mod areas;
+
 #[path = "explorer_own_strategy_tests.rs"]
 mod own_strategy;
 

@@ -2,25 +2,26 @@
 //! where there is none, look once more with other eyes.
 
 mod beside;
+mod choose;
 mod costs;
 mod map_ways;
 mod second_look;
+mod within;
 
 use super::assess::{Assessed, Assessor, rank};
 use super::audit::Audit;
 use super::behind::unknown_behind_m2;
 use super::blacklist::Blacklist;
-use super::decided::{Choice, Decided, count, explain};
+use super::decided::{Audited, Choice, Decided, count, explain};
 use super::record::{CandidateStatus, DecisionRecord, SeenFrontiers};
 use super::settings::ExplorerSettings;
 use super::sight::Sights;
-use super::stages::stage;
 use super::standing::StandingSearch;
 use super::traits::RobotTraits;
 use crate::frontier::{DetectError, DetectionInput, Frontier, FrontierDetector, FrontierTracker};
 use crate::geometry::{Path, Point, Pose};
-use crate::grid::{Costmap, Thresholds};
-use crate::planning::{Astar, Driven, GlobalPlanner, PathField, PlanError};
+use crate::grid::Thresholds;
+use crate::planning::{Astar, Driven, GlobalPlanner, PathField};
 use crate::robot::{MapSnapshot, Observation};
 use crate::selection::{GoalSelector, Ground, SelectionContext};
 use costs::Costs;
@@ -84,7 +85,7 @@ impl Lookout {
             audit: Audit::new(robot, settings.thresholds),
             frontiers: Arc::default(),
             path: None,
-            costs: Costs::new(settings.thresholds, robot.inflation),
+            costs: Costs::new(settings.thresholds, robot.inflation, settings.areas()),
         }
     }
 
@@ -116,7 +117,8 @@ impl Lookout {
     /// Whether the robot's centre may be at a point of the map.
     pub fn can_stand(&mut self, map: &MapSnapshot, point: Point) -> bool {
         let costmap = self.costs.of(map).cells;
-        costmap.is_passable(costmap.info().cell_at(point))
+        let is_allowed = self.costs.fence.fenced().is_none_or(|fenced| fenced.allows(point));
+        is_allowed && costmap.is_passable(costmap.info().cell_at(point))
     }
 
     /// Weighs the frontiers of a map; of the observation, time and scan count.
@@ -136,7 +138,8 @@ impl Lookout {
         let scan = observation.scan.as_ref().map(|(lidar_in_map, scan)| (lidar_in_map, &**scan));
         let changes = Some(&map.changes);
         let input = DetectionInput { grid, robot_in_map: robot, costmap: Some(&open.cells), scan, changes };
-        let mut frontiers = self.detector.detect(&input)?;
+        let frontiers = self.detector.detect(&input)?;
+        let mut frontiers = self.within(frontiers, grid.info(), situation.settings.detector.min_size_m);
         let names = self.tracker.update(&frontiers, grid.info());
         for (frontier, name) in frontiers.iter_mut().zip(names) {
             frontier.id = name.get();
@@ -145,14 +148,16 @@ impl Lookout {
         // A robot that stands where it cannot reaches nothing: the recovery turn and
         // the next map may free it.
         let needs_ways = self.selector.needs().way;
-        let passable = self.costs.passable.update(&open);
-        let mut field = PathField::on(Arc::clone(&open.cells), passable, &robot, needs_ways).ok();
+        let fenced = self.costs.fence.update(&open, &robot);
+        let passable = self.costs.passable.update(&fenced);
+        let mut field = PathField::on(fenced.cells, passable, &robot, needs_ways).ok();
         let mut weighed = self.weigh(&frontiers, situation, map, field.as_ref());
         let has_nothing = |weighed: &Weighed| weighed.choice.is_none() && nearest_here(&weighed.assessed).is_none();
         if has_nothing(&weighed) && !Arc::ptr_eq(&tight.cells, &roomy.cells) {
             // Only now by ways on which the robot fits and cannot turn.
             let search = if needs_ways { PathField::new } else { PathField::reach_only };
-            field = search(situation.driven.open(&tight.cells, &robot), &robot).ok();
+            let cells = situation.driven.open(&tight.cells, &robot);
+            field = search(self.costs.fence.close(&cells, &robot), &robot).ok();
             weighed = self.weigh(&frontiers, situation, map, field.as_ref());
         }
         let mut audit = None;
@@ -172,13 +177,18 @@ impl Lookout {
                 let status = assessed.iter().find(|a| a.record.id == f.id).map(|a| a.record.status);
                 status != Some(CandidateStatus::OutsideRegion)
             };
-            left_behind.area_m2 = unknown_behind_m2(frontiers.iter().filter(is_inside), grid, &self.thresholds);
+            let cells = self.costs.fence.cells_of(grid.info());
+            left_behind.area_m2 =
+                unknown_behind_m2(frontiers.iter().filter(is_inside), grid, &self.thresholds, cells.as_deref());
         }
         let is_forbidden = audit.is_some_and(|audit| audit.forbidden > 0);
         let here = if choice.is_none() && !is_forbidden { nearest_here(&assessed) } else { None };
         let mut why = explain(&assessed, choice.as_ref(), self.selector.name(), &left_behind);
         if audit.is_some() && choice.is_some() {
             why.insert_str(0, "the preset sees nothing more, the audit does: ");
+        }
+        if let Some(forbidden) = audit.as_ref().and_then(Audited::forbidden_by_areas) {
+            why.push_str(&forbidden);
         }
         let record = DecisionRecord {
             time_s: observation.stamp_s,
@@ -219,7 +229,7 @@ impl Lookout {
     }
 
     fn assessor<'a>(
-        &self,
+        &mut self,
         situation: &Situation<'a>,
         map: &'a MapSnapshot,
         field: Option<&'a PathField>,
@@ -234,45 +244,9 @@ impl Lookout {
             map_s: map.stamp_s,
             awaits_map: situation.awaits_map,
             robot: situation.robot,
+            areas: self.costs.fence.cells_of(map.grid.info()),
+            fenced: self.costs.fence.fenced().cloned(),
         }
-    }
-
-    /// Asks the planner in order of rank; what has no path says so in its record. When
-    /// none has, and the planner gave up on some before it knew, part of the way to the
-    /// first of these is taken.
-    fn first_with_a_way(&mut self, ranked: &mut [Assessed], costmap: &Costmap, robot: &Pose) -> Option<Choice> {
-        let mut given_up = Vec::new();
-        for (index, assessed) in ranked.iter_mut().enumerate() {
-            let Some(goal) = assessed.candidate.as_ref().map(|c| c.goal) else { continue };
-            match self.planner.plan(costmap, robot, &goal) {
-                Ok(path) => {
-                    let choice = assessed.choose(goal, &path, false);
-                    self.path = Some(Arc::new(path));
-                    return Some(choice);
-                }
-                Err(error) => {
-                    assessed.record.status = CandidateStatus::NoPath;
-                    if matches!(error, PlanError::IterationLimit { .. }) {
-                        given_up.push((index, goal));
-                    }
-                }
-            }
-        }
-        given_up.into_iter().find_map(|(index, goal)| {
-            let (place, path) = stage(&mut *self.planner, &mut self.guide, costmap, robot, &goal)?;
-            let choice = ranked.get_mut(index)?.choose(place, &path, true);
-            self.path = Some(Arc::new(path));
-            Some(choice)
-        })
-    }
-}
-
-impl Assessed {
-    /// Makes it the choice of its decision.
-    fn choose(&mut self, goal: Pose, path: &Path, is_stage: bool) -> Choice {
-        self.record.path_m = Some(path.length_m());
-        self.record.status = CandidateStatus::Chosen;
-        Choice { goal, target: self.target, is_stage, is_beside: false }
     }
 }
 

@@ -20,7 +20,8 @@ mod state;
 mod traits;
 mod trouble;
 
-pub use blacklist::{Blacklist, Taboo, TabooConfig};
+pub use crate::geometry::Areas;
+pub use blacklist::{Blacklist, Blacklisted, Failure, Forgiven, Taboo, TabooConfig};
 pub use explorer::Explorer;
 pub use ledger::TimeSpent;
 pub use record::{

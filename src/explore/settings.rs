@@ -7,7 +7,7 @@ use crate::frontier::{
     CannyParams, DbscanParams, DetectorKind, DetectorParams, DetectorParamsError, FastParams, ImageParams,
     Reachability, Representative,
 };
-use crate::geometry::Polygon;
+use crate::geometry::{Areas, Polygon};
 use crate::grid::{Neighbourhood, Thresholds};
 use crate::planning::PlannerConfig;
 use crate::range::{OutOfRange, Range, Ranged};
@@ -205,9 +205,12 @@ pub struct ExplorerSettings {
     pub patience: PatienceSettings,
     /// When the run is over.
     pub finish: FinishSettings,
-    /// Only frontiers inside this polygon are explored, metres of the map frame. At least three
-    /// corners `[x, y]`, in order; everywhere when null.
+    /// The robot explores and keeps to the inside of this polygon, metres of the map frame. At
+    /// least three corners `[x, y]`, in order; everywhere when null.
     pub region: Option<Polygon>,
+    /// The robot keeps out of these polygons, metres of the map frame. Each has at least three
+    /// corners `[x, y]`, in order; its body keeps out too.
+    pub no_go: Vec<Polygon>,
     /// The robot drives back to where the run began before it ends.
     pub return_to_start: bool,
 }
@@ -257,6 +260,12 @@ impl ExplorerSettings {
         numbers.extend(self.planner.numbers());
         numbers.extend(self.selection.numbers());
         numbers
+    }
+
+    /// Where the robot may be.
+    #[must_use]
+    pub fn areas(&self) -> Areas {
+        Areas { region: self.region.clone(), no_go: self.no_go.clone() }
     }
 
     /// The detector's parameters with the thresholds that apply to all detectors.

@@ -180,11 +180,6 @@ impl State {
     }
 }
 
-/// Whether the command with this id was carried out.
-pub fn has_succeeded(observation: &Observation, id: CommandId) -> bool {
-    observation.navigation.command == id && observation.navigation.state == NavigationState::Succeeded
-}
-
 /// Whether the command with this id is over, one way or another.
 pub fn has_ended(observation: &Observation, id: CommandId) -> bool {
     observation.navigation.command == id

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PolygonError {
     /// Fewer than three corners.
-    #[error("a region needs at least 3 corners, and {0} were given")]
+    #[error("an area needs at least 3 corners, and {0} were given")]
     TooFewCorners(usize),
     /// A coordinate that is no finite number.
-    #[error("corner {index} of the region is ({x}, {y}): both must be finite metres")]
+    #[error("corner {index} of the area is ({x}, {y}): both must be finite metres")]
     NotFinite {
         /// Which corner, from 0.
         index: usize,
@@ -22,7 +22,7 @@ pub enum PolygonError {
         y: f64,
     },
     /// All corners on one line.
-    #[error("the region's corners enclose no area")]
+    #[error("the corners enclose no area")]
     NoArea,
 }
 
@@ -66,6 +66,17 @@ impl Polygon {
     pub fn contains(&self, point: Point) -> bool {
         self.shape.contains(&geo::Point::new(point.x, point.y))
     }
+}
+
+/// Where a row at a height runs inside of a polygon, from x to x, by its edges' crossings.
+pub(crate) fn spans_at(corners: &[(f64, f64)], y: f64) -> Vec<(f64, f64)> {
+    let edges = corners.iter().zip(corners.iter().cycle().skip(1));
+    let crossing = |(a, b): (&(f64, f64), &(f64, f64))| {
+        ((a.1 <= y) != (b.1 <= y)).then(|| a.0 + (y - a.1) / (b.1 - a.1) * (b.0 - a.0))
+    };
+    let mut crossings: Vec<f64> = edges.filter_map(crossing).collect();
+    crossings.sort_by(f64::total_cmp);
+    crossings.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect()
 }
 
 impl TryFrom<Vec<[f64; 2]>> for Polygon {

@@ -24,12 +24,24 @@ impl Census {
     }
 
     /// The counts without those of a part and with others in their place.
-    const fn with_part(self, without: Self, with: Self) -> Self {
+    pub(super) const fn with_part(self, without: Self, with: Self) -> Self {
         Self {
             free: self.free + with.free - without.free,
             occupied: self.occupied + with.occupied - without.occupied,
             unknown: self.unknown + with.unknown - without.unknown,
             unsettled: self.unsettled + with.unsettled - without.unsettled,
+        }
+    }
+}
+
+impl Census {
+    /// One more cell.
+    pub(super) const fn add(&mut self, state: CellState) {
+        match state {
+            CellState::Free => self.free += 1,
+            CellState::Occupied => self.occupied += 1,
+            CellState::Unknown => self.unknown += 1,
+            CellState::Unsettled => self.unsettled += 1,
         }
     }
 }
@@ -48,12 +60,7 @@ impl OccupancyGrid {
         let lines = self.data().chunks_exact(self.info().width()).skip(rows.start).take(rows.len());
         let mut census = Census::default();
         for &value in lines.flat_map(|line| &line[columns.clone()]) {
-            match thresholds.classify(value) {
-                CellState::Free => census.free += 1,
-                CellState::Occupied => census.occupied += 1,
-                CellState::Unknown => census.unknown += 1,
-                CellState::Unsettled => census.unsettled += 1,
-            }
+            census.add(thresholds.classify(value));
         }
         census
     }

@@ -59,7 +59,9 @@ impl MapMemory {
         let is_wall = |value: i8| value >= self.thresholds.occupied_min;
         let info = self.earlier.info();
         let (mut seen, mut expected) = (0, 0);
-        for (index, _) in self.earlier.data().iter().enumerate().filter(|&(_, &value)| is_known(value) && is_wall(value)) {
+        for (index, _) in
+            self.earlier.data().iter().enumerate().filter(|&(_, &value)| is_known(value) && is_wall(value))
+        {
             let at = info.center(info.cell(index));
             let cell = newer.info().cell_at(at);
             if newer.get(cell).is_none_or(|value| !is_known(value)) {
@@ -68,7 +70,8 @@ impl MapMemory {
             expected += 1;
             let near = -SAME_WALL_CELLS..=SAME_WALL_CELLS;
             let around = near.clone().flat_map(|dy| near.clone().map(move |dx| Cell::new(cell.x + dx, cell.y + dy)));
-            seen += usize::from(around.filter_map(|cell| newer.get(cell)).any(|value| is_known(value) && is_wall(value)));
+            seen +=
+                usize::from(around.filter_map(|cell| newer.get(cell)).any(|value| is_known(value) && is_wall(value)));
         }
         (expected >= FEWEST_WALLS).then(|| seen as f64 / expected as f64)
     }

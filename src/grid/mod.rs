@@ -4,6 +4,7 @@
 //! index `y * width + x`; images, whose first row is the highest y, are turned over
 //! where they are read or written and nowhere else.
 
+mod area_cells;
 mod census;
 mod changes;
 mod costmap;
@@ -20,6 +21,8 @@ mod rect;
 mod state;
 mod vertical;
 
+pub use area_cells::AreaCells;
+pub(crate) use area_cells::AreaCensus;
 pub use census::Census;
 pub(crate) use census::LiveCensus;
 pub use changes::Changes;

@@ -44,12 +44,18 @@ impl Drive {
         }
     }
 
-    /// The velocity command until the next tick, and how it is doing; `roomy` is the costmap
-    /// of the input with what is planned round first.
+    /// Another way is planned at the next tick.
+    pub fn plan_anew(&mut self) {
+        (self.path, self.planned_s) = (None, f64::NEG_INFINITY);
+    }
+
+    /// The velocity command until the next tick, and how it is doing; ways are planned over
+    /// `plannable`: the costmap of the input within the robot's areas, and before it the same with
+    /// what is planned round first.
     pub fn update(
         &mut self,
         input: &NavigationInput<'_>,
-        roomy: &Costmap,
+        plannable: [&Costmap; 2],
         config: &NavigatorConfig,
         planner: &mut dyn GlobalPlanner,
         controller: &mut dyn Controller,
@@ -58,7 +64,7 @@ impl Drive {
         if self.arrived {
             return self.face_goal(input, config);
         }
-        self.replan(input, roomy, config, planner, controller);
+        self.replan(input, plannable, config, planner, controller);
         let Some(path) = &self.path else {
             return (Twist::ZERO, patience(&self.without_path, input.stamp_s, config.planner_patience_s));
         };
@@ -85,14 +91,16 @@ impl Drive {
     fn replan(
         &mut self,
         input: &NavigationInput<'_>,
-        roomy: &Costmap,
+        plannable: [&Costmap; 2],
         config: &NavigatorConfig,
         planner: &mut dyn GlobalPlanner,
         controller: &mut dyn Controller,
     ) {
+        let [tight, roomy] = plannable;
         let new_costmap = input.costmap_stamp_s != self.costmap_stamp_s;
         let old_plan = input.stamp_s - self.planned_s >= config.replan_period_s;
-        let obstacle = if new_costmap { self.path.as_ref().and_then(|path| first_blocked(path, input)) } else { None };
+        let obstacle =
+            if new_costmap { self.path.as_ref().and_then(|path| first_blocked(path, input, tight)) } else { None };
         let blocked = obstacle.is_some();
         self.blocked_at.extend(obstacle);
         let retry = self.path.is_none() && new_costmap;
@@ -106,7 +114,7 @@ impl Drive {
         let planned = match by_room {
             Err(PlanError::IterationLimit { .. }) | Ok(_) => by_room,
             // Only where there is no other way: where the robot fits and cannot turn.
-            Err(_) => planner.plan(input.costmap, &pose, &goal),
+            Err(_) => planner.plan(tight, &pose, &goal),
         };
         match planned {
             // A gap that opens from afar and closes from nearby would make the robot run to
@@ -120,7 +128,7 @@ impl Drive {
             // A path that is still free serves on when the planner gave up its search for
             // a newer one: the goal may be too far from here for its limit.
             Err(PlanError::IterationLimit { .. })
-                if self.path.as_ref().is_some_and(|path| first_blocked(path, input).is_none()) => {}
+                if self.path.as_ref().is_some_and(|path| first_blocked(path, input, tight).is_none()) => {}
             Err(error) => {
                 self.path = None;
                 let since = self.without_path.take().map_or(input.stamp_s, |(since, _)| since);
@@ -160,7 +168,7 @@ fn patience(trouble: &Option<(f64, String)>, now_s: f64, limit_s: f64) -> Naviga
 }
 
 /// The first place on the part of a path still ahead that is blocked.
-fn first_blocked(path: &Path, input: &NavigationInput<'_>) -> Option<Point> {
+fn first_blocked(path: &Path, input: &NavigationInput<'_>, costmap: &Costmap) -> Option<Point> {
     let here = input.pose_in_map.position();
     let nearest = path
         .poses
@@ -168,7 +176,7 @@ fn first_blocked(path: &Path, input: &NavigationInput<'_>) -> Option<Point> {
         .enumerate()
         .min_by(|a, b| a.1.distance_to(here).total_cmp(&b.1.distance_to(here)))
         .map_or(0, |(index, _)| index);
-    let info = input.costmap.info();
+    let info = costmap.info();
     let ahead = path.poses.iter().skip(nearest + 1).map(Pose::position);
-    ahead.into_iter().find(|&point| !input.costmap.is_passable(info.cell_at(point)))
+    ahead.into_iter().find(|&point| !costmap.is_passable(info.cell_at(point)))
 }

@@ -16,9 +16,9 @@ pub use config::NavigatorConfig;
 pub use input::NavigationInput;
 
 use crate::control::Controller;
-use crate::geometry::{Body, Twist};
+use crate::geometry::{Areas, Body, Twist};
 use crate::grid::Costmap;
-use crate::planning::{Driven, GlobalPlanner, Path};
+use crate::planning::{Driven, Fence, GlobalPlanner, Path};
 use crate::robot::{Command, CommandId, Navigation, NavigationState};
 use back_off::BackOff;
 use drive::Drive;
@@ -43,12 +43,15 @@ pub struct Navigator {
     body: Body,
     activity: Activity,
     driven: Driven,
+    fence: Fence,
     opened: Option<Opened>,
 }
 
 /// A costmap as it came, and as it is for this robot.
 struct Opened {
     came: Arc<Costmap>,
+    /// Where it fits, whatever its areas say.
+    walls: Arc<Costmap>,
     /// Where it fits.
     tight: Arc<Costmap>,
     /// Where it can turn, which is planned for first.
@@ -70,7 +73,17 @@ impl Navigator {
         body: &Body,
     ) -> Self {
         let (body, driven) = (body.clone(), Driven::default());
-        Self { config, planner, controller, body, activity: Activity::Idle, driven, opened: None }
+        let fence = Fence::default();
+        Self { config, planner, controller, body, activity: Activity::Idle, driven, fence, opened: None }
+    }
+
+    /// Plans within these areas from now on. They end no way that a robot outside needs to get in.
+    pub fn set_areas(&mut self, areas: Areas) {
+        self.fence = Fence::new(areas, self.body.footprint.inscribed_radius_m());
+        self.opened = None;
+        if let Activity::Drive(drive) = &mut self.activity {
+            drive.plan_anew();
+        }
     }
 
     /// Takes a command; the id of the one under way changes nothing.
@@ -102,8 +115,8 @@ impl Navigator {
     /// The velocity command until the next tick, and how the current command is doing.
     pub fn update(&mut self, input: &NavigationInput<'_>) -> (Twist, Navigation) {
         self.driven.note(&input.pose_in_map);
-        let [tight, roomy] = self.open(input);
-        let input = &NavigationInput { costmap: &tight, ..*input };
+        let [walls, tight, roomy] = self.open(input);
+        let input = &NavigationInput { costmap: &walls, ..*input };
         let (twist, navigation) = match &mut self.activity {
             Activity::Idle => return (Twist::ZERO, Navigation { command: 0, state: NavigationState::Idle }),
             Activity::Ended(navigation) => return (Twist::ZERO, navigation.clone()),
@@ -118,7 +131,7 @@ impl Navigator {
             }
             Activity::Drive(drive) => {
                 let (planner, controller) = (&mut *self.planner, &mut *self.controller);
-                let (twist, state) = drive.update(input, &roomy, &self.config, planner, controller);
+                let (twist, state) = drive.update(input, [&tight, &roomy], &self.config, planner, controller);
                 (twist, Navigation { command: drive.id, state })
             }
         };
@@ -129,25 +142,27 @@ impl Navigator {
     }
 
     /// The costmap as it is for a robot that is where it is and came from where it came.
-    fn open(&mut self, input: &NavigationInput<'_>) -> [Arc<Costmap>; 2] {
+    fn open(&mut self, input: &NavigationInput<'_>) -> [Arc<Costmap>; 3] {
         let own = input.costmap.info().cell_at(input.pose_in_map.position());
         let is_lost = matches!(&self.activity, Activity::Drive(drive) if drive.path.is_none());
-        if let Some(Opened { came, tight, roomy, since_s }) = &self.opened
+        if let Some(Opened { came, walls, tight, roomy, since_s }) = &self.opened
             && Arc::ptr_eq(came, input.costmap)
             && tight.is_passable(own)
             && !is_lost
             && input.stamp_s - since_s < OPENED_FOR_S
         {
-            return [Arc::clone(tight), Arc::clone(roomy)];
+            return [Arc::clone(walls), Arc::clone(tight), Arc::clone(roomy)];
         }
         let came = Arc::clone(input.costmap);
-        let tight = self.driven.open(&came, &input.pose_in_map);
+        let pose = &input.pose_in_map;
+        let walls = self.driven.open(&came, pose);
+        let tight = self.fence.close(&walls, pose);
         let roomy = match came.without_narrow() {
-            Some(roomy) => self.driven.open(&Arc::new(roomy), &input.pose_in_map),
+            Some(roomy) => self.fence.close(&self.driven.open(&Arc::new(roomy), pose), pose),
             None => Arc::clone(&tight),
         };
-        let opened = [Arc::clone(&tight), Arc::clone(&roomy)];
-        self.opened = Some(Opened { came, tight, roomy, since_s: input.stamp_s });
+        let opened = [Arc::clone(&walls), Arc::clone(&tight), Arc::clone(&roomy)];
+        self.opened = Some(Opened { came, walls, tight, roomy, since_s: input.stamp_s });
         opened
     }
 

@@ -11,6 +11,7 @@ use crate::robot::PoseError;
 use crate::tf::{
     MovingLink, RejectedTransform, TransformBuffer, TransformError, TransformSample, frame_name, is_upside_down, planar,
 };
+use nalgebra::Isometry3;
 use std::collections::BTreeMap;
 
 /// How far back transforms are remembered, seconds, as in tf2.
@@ -150,6 +151,20 @@ impl Frames {
         Ok((planar(&transform), is_upside_down(&transform)))
     }
 
+    /// Where a frame is in another one at a time, or at the newest time that is known where that
+    /// one is 0 or not known.
+    ///
+    /// # Errors
+    /// [`TransformError`] when no transform leads there.
+    pub fn place(&self, target: &str, source: &str, stamp_s: f64) -> Result<Isometry3<f64>, TransformError> {
+        if stamp_s > 0.0
+            && let Ok(transform) = self.buffer.at(target, source, stamp_s)
+        {
+            return Ok(transform);
+        }
+        self.buffer.latest(target, source).map(|newest| newest.transform)
+    }
+
     /// Names every frame that tf does not have, with those that it has.
     fn what_is_missing(&self, map_frame: &str, base_frame: &str, error: &TransformError) -> String {
         let known = self.buffer.frames();
@@ -283,6 +298,15 @@ mod tests {
             tell(&mut frames, "base", now_s, now_s, 0.0);
         }
         assert!(pose(&frames, 101.5).unwrap_err().contains("clock skew: map -> odom is stamped 120.0 s ahead"));
+    }
+
+    #[test]
+    fn a_place_is_that_of_its_time_or_the_newest() {
+        let frames = told(100.0, 0.0, 0.0);
+        let x = |stamp_s| frames.place("/map", "base", stamp_s).map(|place| place.translation.x).ok();
+        assert!(x(99.0).is_some_and(|x| (x - 99.0).abs() < 1e-9));
+        assert!([0.0, 1.0, 500.0].map(x).iter().all(|x| x.is_some_and(|x| (x - 100.0).abs() < 1e-9)));
+        assert!(frames.place("map", "laser", 99.0).is_err());
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::scan_feed::ScanFeed;
 use super::transforms::Transforms;
 use super::troubles::{Trouble, Troubles};
 use crate::control::StopGuard;
-use crate::geometry::{Body, Path, Point, Pose, Twist};
+use crate::geometry::{Areas, Body, Path, Point, Pose, Twist};
 use crate::grid::Costmap;
 use crate::navigation::{NavigationInput, Navigator};
 use crate::robot::{Command, Navigation, NavigationState};
@@ -121,6 +121,11 @@ impl Pilot {
     /// The path that is followed, if any.
     pub fn path(&self) -> Option<Path> {
         lock(&self.shared).navigator.path().cloned()
+    }
+
+    /// Drives within these areas from now on.
+    pub fn set_areas(&self, areas: Areas) {
+        lock(&self.shared).navigator.set_areas(areas);
     }
 
     /// The newest map's costs, and when they were true, seconds.

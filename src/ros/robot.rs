@@ -14,7 +14,7 @@ use super::robot_map::RobotMap;
 use super::scan_feed::ScanFeed;
 use super::transforms::Transforms;
 use super::troubles::Troubles;
-use crate::geometry::Pose;
+use crate::geometry::{Areas, Pose};
 use crate::robot::{Command, CommandId, Observation, Robot, RobotError};
 use crate::scan::LaserScan;
 use std::sync::atomic::AtomicBool;
@@ -137,6 +137,11 @@ impl RosRobot {
     #[must_use]
     pub fn path(&self) -> Option<crate::geometry::Path> {
         self.parts.pilot.path()
+    }
+
+    /// Keeps to these areas from now on, where we drive ourselves.
+    pub fn set_areas(&self, areas: &Areas) {
+        self.parts.pilot.set_areas(areas.clone());
     }
 
     /// Stops the robot: cancels the goal under way and stands still.

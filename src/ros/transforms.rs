@@ -9,6 +9,7 @@ use super::node::Node;
 use crate::geometry::Pose;
 use crate::robot::PoseError;
 use crate::tf::TransformError;
+use nalgebra::Isometry3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -78,6 +79,14 @@ impl Transforms {
     /// [`TransformError`] when no transform leads there.
     pub fn sensor(&self, target: &str, sensor: &str, stamp_s: f64) -> Result<(Pose, bool), TransformError> {
         lock(&self.frames).sensor(target, sensor, stamp_s)
+    }
+
+    /// Where a frame is in another one at a time, or now where that time is 0 or not known.
+    ///
+    /// # Errors
+    /// [`TransformError`] when no transform leads there.
+    pub fn place(&self, target: &str, source: &str, stamp_s: f64) -> Result<Isometry3<f64>, TransformError> {
+        lock(&self.frames).place(target, source, stamp_s)
     }
 }
 

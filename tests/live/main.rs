@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
+mod areas;
 mod controls;
 mod ctl;
 mod doctor;
@@ -80,7 +81,7 @@ fn main() {
 }
 
 fn all() -> impl Iterator<Item = &'static Test> {
-    let own = TESTS.iter().chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
+    let own = TESTS.iter().chain(areas::TESTS).chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
     own.chain(doctor::TESTS).chain(ctl::TESTS)
 }
 

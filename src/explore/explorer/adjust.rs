@@ -1,25 +1,60 @@
-//! What may be exchanged while a run goes on: the region, the strategy, the planner.
+//! What may be exchanged while a run goes on: the areas, the strategy, the planner, and what is
+//! left alone.
 
+use super::super::blacklist::Blacklisted;
+use super::super::record::EndReason;
+use super::super::state::State;
 use super::Explorer;
-use crate::geometry::Polygon;
+use crate::geometry::{Areas, Polygon};
 use crate::planning::GlobalPlanner;
 use crate::selection::GoalSelector;
 
 impl Explorer {
-    /// Explores only inside a region from now on, or everywhere again.
-    pub fn set_region(&mut self, region: Option<Polygon>) {
-        self.settings.region = region;
+    /// Keeps to these areas from now on. A goal under way is given up for that, and not blamed.
+    pub fn set_areas(&mut self, areas: Areas) {
+        if areas == self.settings.areas() {
+            return;
+        }
+        self.lookout.set_areas(&areas);
+        (self.settings.region, self.settings.no_go) = (areas.region, areas.no_go);
+        self.outside_told = false;
+        self.decide_anew();
+        // Who was sent home goes home.
+        if matches!(&self.state, State::Returning { end, .. } if end.reason != EndReason::Interrupted) {
+            self.state = State::Ready;
+        }
     }
 
-    /// Only frontiers inside are explored, if there is one.
+    /// Where the robot may be.
+    #[must_use]
+    pub fn areas(&self) -> Areas {
+        self.settings.areas()
+    }
+
+    /// Explores only inside a region from now on, or everywhere again.
+    pub fn set_region(&mut self, region: Option<Polygon>) {
+        self.set_areas(Areas { region, ..self.areas() });
+    }
+
+    /// The region that is explored, if there is one.
     #[must_use]
     pub const fn region(&self) -> Option<&Polygon> {
         self.settings.region.as_ref()
     }
 
-    /// Forgets what failed and what was visited in vain; returns how many places that were.
+    /// What failed in this round, with the reasons.
+    #[must_use]
+    pub fn blacklisted(&self) -> Vec<Blacklisted> {
+        self.blacklist.listed()
+    }
+
+    /// Tries everything again that is left alone, also what was seen in vain; how many targets
+    /// had failed.
     pub fn clear_blacklist(&mut self) -> usize {
-        self.blacklist.clear()
+        let failed = self.blacklist.clear();
+        self.sights.forget();
+        self.decide_anew();
+        failed
     }
 
     /// Chooses goals by another strategy than the settings name, such as one of one's own.
@@ -30,5 +65,12 @@ impl Explorer {
     /// Asks another planner for the way to a candidate, such as move_base's own.
     pub fn set_planner(&mut self, planner: Box<dyn GlobalPlanner>) {
         self.lookout.set_planner(planner);
+    }
+
+    /// Decides on the map that is there, whatever was decided on it.
+    fn decide_anew(&mut self) {
+        if matches!(self.state, State::Driving(_) | State::Confirming { .. } | State::Pausing { .. }) {
+            self.state = State::Ready;
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! On the way to a goal: arrival, failure, and second thoughts.
 
+use super::super::blacklist::Failure;
 use super::super::record::DecisionRecord;
 use super::super::state::{AfterTurn, State};
 use super::Explorer;
@@ -102,7 +103,8 @@ impl Explorer {
         let State::Driving(drive) = &self.state else { return };
         self.notice = Some(format!("the goal at ({:.2}, {:.2}) m failed: {why}", drive.goal.x, drive.goal.y));
         self.counts.goals_failed += 1;
-        self.blacklist.record_failure(drive.target, drive.goal.position(), pose.position());
+        let (target, place, from) = (drive.target, drive.goal.position(), pose.position());
+        self.blacklist.record_failure(&Failure { target, place, from, why }, self.watch.map());
         let is_the_place = self.trouble.fail(&pose, now_s);
         if self.gives_up(now_s) {
             return;

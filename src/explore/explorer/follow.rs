@@ -1,5 +1,6 @@
 //! From a decision to what is done about it: a goal, a look round, a recovery, the end.
 
+use super::super::blacklist::Failure;
 use super::super::decided::Decided;
 use super::super::lookout::Situation;
 use super::super::progress_monitor::ProgressMonitor;
@@ -7,7 +8,7 @@ use super::super::record::{DecisionRecord, EndReason};
 use super::super::state::{AfterTurn, Drive, State};
 use super::Explorer;
 use crate::geometry::{Point, Pose};
-use crate::robot::{MapSnapshot, Observation};
+use crate::robot::{CommandId, MapSnapshot, NavigationState, Observation};
 
 /// A turn that makes a mapper send a map, radians: gmapping's default asks for 0.5.
 const NUDGE_RAD: f64 = 0.7;
@@ -68,6 +69,11 @@ impl Explorer {
         let now_s = observation.stamp_s;
         self.counts.detections += 1;
         self.trouble.sees(self.watch.known_m2(), now_s);
+        for target in self.blacklist.look_again(map) {
+            let (x, y) = (target.x, target.y);
+            self.notice =
+                Some(format!("the map has opened around ({x:.2}, {y:.2}) m: what failed there is tried again"));
+        }
         let situation = Situation {
             now_s,
             settings: &self.settings,
@@ -93,6 +99,7 @@ impl Explorer {
             }
         };
         self.map_lost_since_s = None;
+        self.notice_outside();
         self.left_behind = decided.left_behind;
         self.count_visits(&decided);
         let mut record = decided.record.clone();
@@ -121,13 +128,21 @@ impl Explorer {
     }
 
     /// A look round at a target is over. One that was not made is no visit: it says nothing about
-    /// what could be seen.
-    pub(super) fn look_is_over(&mut self, target: Point, pose: Pose, is_made: bool) {
-        if is_made {
-            self.blacklist.record_visit(target, pose.position());
-        } else {
-            self.blacklist.record_failure(target, pose.position(), pose.position());
-        }
+    /// what could be seen. Nor is one that somebody else took away a failure.
+    pub(super) fn look_is_over(&mut self, target: Point, pose: Pose, observation: &Observation, id: CommandId) {
+        let place = pose.position();
+        let why = match &observation.navigation.state {
+            _ if observation.navigation.command != id => "the look round took too long".to_owned(),
+            NavigationState::Succeeded => {
+                self.blacklist.record_visit(target, place);
+                return;
+            }
+            NavigationState::Preempted => return,
+            NavigationState::Aborted(why) => format!("the look round was not made: {why}"),
+            _ => "the look round took too long".to_owned(),
+        };
+        let failure = Failure { target, place, from: place, why: &why };
+        self.blacklist.record_failure(&failure, self.watch.map());
     }
 
     /// Turns what was decided into the next state.
@@ -174,11 +189,11 @@ impl Explorer {
                 } else if decided.is_barred_near(drive.target, goal.commit_radius_m, self.lookout.frontiers()) {
                     // The way there has closed as the robot came. From elsewhere it may seem open
                     // again: without a count the robot would drive to and fro for ever.
-                    self.blacklist.record_failure(drive.target, place, pose.position());
-                    self.notice = Some(format!(
-                        "the goal at ({:.2}, {:.2}) m is given up: from here no way leads there",
-                        drive.goal.x, drive.goal.y
-                    ));
+                    let why = "from here no way leads there";
+                    let failure = Failure { target: drive.target, place, from: pose.position(), why };
+                    self.blacklist.record_failure(&failure, self.watch.map());
+                    self.notice =
+                        Some(format!("the goal at ({:.2}, {:.2}) m is given up: {why}", drive.goal.x, drive.goal.y));
                 }
             }
             self.counts.goals_sent += 1;
@@ -233,9 +248,10 @@ impl Explorer {
     }
 
     /// The share of the free area that is known, where an end by share is asked for.
-    fn share_known(&self, map: &MapSnapshot) -> Option<f64> {
+    fn share_known(&mut self, map: &MapSnapshot) -> Option<f64> {
         self.settings.finish.good_enough_share?;
-        let free_m2 = map.grid.census(&self.settings.thresholds).free as f64 * map.grid.info().cell_area_m2();
+        let free = self.lookout.census(map).free;
+        let free_m2 = free as f64 * map.grid.info().cell_area_m2();
         Some(free_m2 / (free_m2 + self.left_behind.area_m2).max(f64::MIN_POSITIVE))
     }
 

@@ -109,7 +109,10 @@ impl Explorer {
     pub(super) fn finish(&mut self, reason: EndReason, now_s: f64, message: &str) {
         let end = End { reason, time_s: now_s, left_behind: self.left_behind, message: message.to_owned() };
         self.state = match self.start_pose {
-            Some(goal) if self.settings.return_to_start => return self.drive_home(goal, end, now_s, 0),
+            // Not even home is driven to in a no-go area.
+            Some(goal) if self.settings.return_to_start && !self.areas().is_in_no_go(goal.position()) => {
+                return self.drive_home(goal, end, now_s, 0);
+            }
             _ => State::Ended(end),
         };
     }

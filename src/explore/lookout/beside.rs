@@ -38,7 +38,8 @@ impl Lookout {
         field: &PathField,
     ) -> Result<(), DetectError> {
         let settings = &situation.settings.goal;
-        let (Some(limit_m), Some(chosen), Some(way)) = (settings.beside_way_m, weighed.choice, &self.path) else {
+        let (Some(limit_m), Some(chosen), Some(way)) = (settings.beside_way_m, weighed.choice, self.path.clone())
+        else {
             return Ok(());
         };
         let (robot, info) = (situation.robot, map.grid.info());
@@ -46,7 +47,7 @@ impl Lookout {
         let under_way = |target: Point| {
             situation.beside.is_some_and(|beside| nalgebra::distance(&beside, &target) <= settings.commit_radius_m)
         };
-        let mut near = self.audit.frontiers(map, robot)?;
+        let mut near = self.audit_frontiers(map, robot)?;
         near.retain(|f| f.cells.iter().any(|&cell| robot.distance_to(info.center(cell)) <= limit_m));
         let assessor = self.assessor(situation, map, Some(field));
         let standing = &mut self.standing;
@@ -55,7 +56,7 @@ impl Lookout {
             .map(|frontier| assessor.assess(frontier, standing))
             .filter(|a| a.record.status == CandidateStatus::Eligible)
             .filter_map(|a| Some((a.candidate.as_ref()?.goal, a)))
-            .filter(|(_, a)| under_way(a.target) || leads_away(way, a.target, &map.grid, &self.thresholds))
+            .filter(|(_, a)| under_way(a.target) || leads_away(&way, a.target, &map.grid, &self.thresholds))
             .collect();
         open.sort_by(|(a, _), (b, _)| robot.distance_to(a.position()).total_cmp(&robot.distance_to(b.position())));
         for (goal, mut beside) in open {

@@ -8,7 +8,7 @@ use crate::explore::decided::Audited;
 use crate::explore::record::{CandidateStatus, SeenFrontiers};
 use crate::explore::standing::{GoalHeading, StandingGoal};
 use crate::frontier::{DetectError, Frontier};
-use crate::planning::PathField;
+use crate::planning::{PathField, Whereabouts};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ impl Lookout {
         map: &MapSnapshot,
         field: Option<&PathField>,
     ) -> Result<(Vec<Frontier>, Weighed, Audited), DetectError> {
-        let raw = self.audit.frontiers(map, situation.robot)?;
+        let raw = self.audit_frontiers(map, situation.robot)?;
         let mut weighed = self.weigh(&raw, situation, map, field);
         let mut audited = self.audit_of(&weighed, situation, map, field);
         if !situation.settings.finish.explore_what_the_audit_sees {
@@ -54,10 +54,15 @@ impl Lookout {
     ) -> Audited {
         let robot = &situation.robot;
         let unreachable = |a: &&Assessed| a.record.status == CandidateStatus::Unreachable;
-        let in_pocket = field.is_none_or(|field| field.area_m2() < POCKET_M2);
-        let mut barred = 0;
+        let has_areas = self.costs.fence.fenced().is_some();
+        // What the areas close is no pocket.
+        let open = has_areas.then(|| situation.driven.open(&self.costs.of(map).cells, robot));
+        let open = open.map(|open| PathField::reach_only(open, robot).ok());
+        let widely = open.as_ref().map_or(field, Option::as_ref);
+        let in_pocket = widely.is_none_or(|field| field.area_m2() < POCKET_M2);
+        let (mut barred, mut fenced_off) = (0, 0);
         if weighed.assessed.iter().any(|a| unreachable(&a)) {
-            let widest = self.audit.widest_reach(&map.grid, situation.driven, robot);
+            let widest = self.audit.widest_reach(&map.grid, situation.driven, &mut self.costs.fence, robot);
             let radius_m = situation.settings.goal.search_radius_m;
             let standing = &mut self.standing;
             let mut could_see = |a: &&Assessed| {
@@ -75,8 +80,20 @@ impl Lookout {
                 place.is_some_and(|place| place.distance_to(a.target) <= near_m)
             };
             barred = weighed.assessed.iter().filter(unreachable).filter(|a| could_see(a)).count();
+            let mut is_fenced_off = |a: &&Assessed| {
+                // Where the robot looked at it from as near as it may, a nearer place counts.
+                let radius_m = a.spent_m.map_or(radius_m, |spent_m| spent_m - SAME_PLACE_M);
+                let search = StandingGoal { radius_m, heading: GoalHeading::AsApproached, refused: &|_| false };
+                has_areas && radius_m > 0.0 && widely.and_then(|f| standing.goal(f, robot, a.target, &search)).is_some()
+            };
+            fenced_off = weighed.assessed.iter().filter(unreachable).filter(|a| is_fenced_off(a)).count();
         }
-        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket }
+        let has_no_go = !situation.settings.no_go.is_empty();
+        let locked_out = match self.costs.fence.whereabouts() {
+            Whereabouts::LockedOut { no_go } if has_areas => Some(no_go),
+            _ => None,
+        };
+        Audited { forbidden: 0, forbidden_m: 0.0, barred, in_pocket, fenced_off, has_no_go, locked_out }
     }
 }
 

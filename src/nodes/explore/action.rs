@@ -1,6 +1,7 @@
 //! The action `~explore`: an exploration as a mission script orders it, with feedback and a
 //! result.
 
+use super::areas::brought;
 use super::connect::Connected;
 use super::desk::{Desk, Order, Request};
 use super::settings::ExploreNodeError;
@@ -12,13 +13,18 @@ use crate::ros::msg::frontier_explorer::{
     ExplorationStatus, ExploreActionFeedback, ExploreActionGoal, ExploreActionResult, ExploreFeedback, ExploreGoal,
     ExploreResult,
 };
-use crate::ros::region::is_in_frame;
+use crate::ros::msg::geometry_msgs::PolygonStamped;
+use crate::ros::transforms::Transforms;
 use crate::ros::{Feed, Node, Publisher};
+use nalgebra::Point3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Goals come seldom: so often it is looked whether all who send them are met.
 const LOOK: Duration = Duration::from_secs(30);
+/// A goal with a region waits so long for the first map, and for the transform to it.
+const FRAME_WITHIN: Duration = Duration::from_secs(10);
+const TRANSFORM_WITHIN: Duration = Duration::from_secs(2);
 /// From one status to the next, real time: 5 Hz, as actionlib.
 const STATUS_PERIOD: Duration = Duration::from_millis(200);
 /// From one feedback to the next, real time.
@@ -77,10 +83,10 @@ impl ExploreAction {
         let theirs = Arc::clone(&teller);
         std::thread::spawn(move || tell(&theirs));
         let (goals, cancels, theirs) = (desk.clone(), desk.clone(), Arc::clone(&teller));
-        let map_frame = Arc::clone(&connected.map_frame);
+        let frames = MapFrame::new(node, connected);
         let feeds = vec![
             Feed::listen_seldom(node, "~explore/goal", 10, LOOK, move |message: ExploreActionGoal, _| {
-                match order(message.goal_id.clone(), &message.goal, &map_frame) {
+                match order(message.goal_id.clone(), &message.goal, |region| frames.corners(region)) {
                     Ok(order) => goals.hand_in(Request::Order(order)),
                     Err(why) => theirs.turn_away(message.goal_id, GoalStatus::REJECTED, &why),
                 }
@@ -160,20 +166,55 @@ fn tell(teller: &Teller) {
     }
 }
 
-/// What a goal orders, or why it cannot be ordered.
-fn order(id: GoalID, goal: &ExploreGoal, map_frame: &Mutex<String>) -> Result<Order, String> {
+/// Brings polygons to the map's frame.
+struct MapFrame {
+    node: Node,
+    transforms: Arc<Transforms>,
+    name: Arc<Mutex<String>>,
+}
+
+impl MapFrame {
+    fn new(node: &Node, connected: &Connected) -> Self {
+        let (transforms, name) = (Arc::clone(&connected.transforms), Arc::clone(&connected.map_frame));
+        Self { node: node.clone(), transforms, name }
+    }
+
+    /// The corners of a polygon in the map's frame, which is waited for.
+    fn corners(&self, region: &PolygonStamped) -> Result<Vec<Point>, String> {
+        let points: Vec<Point3<f64>> =
+            region.polygon.points.iter().map(|p| Point3::new(p.x, p.y, p.z).cast()).collect();
+        if points.is_empty() {
+            return Ok(Vec::new());
+        }
+        self.node.wait_until(FRAME_WITHIN, || !lock(&self.name).is_empty());
+        let map = lock(&self.name).clone();
+        if map.is_empty() {
+            return Err("the corners of the region: no map has come that could tell its frame".to_owned());
+        }
+        let (frame, stamp_s) = (&region.header.frame_id, convert::seconds(&region.header.stamp));
+        let mut corners = Err(String::new());
+        self.node.wait_until(TRANSFORM_WITHIN, || {
+            corners = brought(&self.transforms, &map, frame, stamp_s, &points);
+            corners.is_ok()
+        });
+        corners.map_err(|why| format!("the corners of the region: {why}"))
+    }
+}
+
+/// What a goal orders, or why it cannot be ordered; the corners of its region are brought to the
+/// map's frame.
+fn order(
+    id: GoalID,
+    goal: &ExploreGoal,
+    corners: impl Fn(&PolygonStamped) -> Result<Vec<Point>, String>,
+) -> Result<Order, String> {
     let limit_s = goal.time_limit_s;
     if !(limit_s.is_finite() && limit_s >= 0.0) {
         return Err(format!("time_limit_s is {limit_s}: must be finite and at least 0 s, 0 for none"));
     }
-    let frame = &goal.region.header.frame_id;
-    let corners: Vec<Point> =
-        goal.region.polygon.points.iter().map(|p| Point::new(f64::from(p.x), f64::from(p.y))).collect();
+    let corners = corners(&goal.region)?;
     let region = match corners.is_empty() {
         true => None,
-        false if !is_in_frame(map_frame, frame) => {
-            return Err(format!("the region is in the frame {frame}: must be in the map's"));
-        }
         false => Some(Polygon::new(corners).map_err(|e| format!("region: {e}"))?),
     };
     Ok(Order {
@@ -196,8 +237,14 @@ mod tests {
 
     #[test]
     fn a_goal_is_checked_before_it_is_taken_up() {
-        let map_frame = Mutex::new("map".to_owned());
-        let read = |goal: &ExploreGoal| order(GoalID::default(), goal, &map_frame);
+        let corners = |region: &PolygonStamped| {
+            let points = region.polygon.points.iter();
+            match region.header.frame_id.as_str() {
+                "" => Ok(points.map(|p| Point::new(f64::from(p.x), f64::from(p.y))).collect()),
+                other => Err(format!("the frame {other}")),
+            }
+        };
+        let read = |goal: &ExploreGoal| order(GoalID::default(), goal, corners);
         let everything = read(&ExploreGoal::default()).unwrap();
         assert!(everything.region.is_none() && everything.time_limit_s.is_none() && !everything.return_home);
         let limit = |time_limit_s| ExploreGoal { time_limit_s, ..ExploreGoal::default() };

@@ -22,6 +22,8 @@ pub struct Connected {
     pub maps: MapReader,
     /// The frame of the map.
     pub map_frame: Arc<Mutex<String>>,
+    /// What is known of the frames.
+    pub transforms: Arc<Transforms>,
     /// Whether the exploration is to rest.
     pub paused: Arc<AtomicBool>,
     /// Rung when something has come.
@@ -60,6 +62,7 @@ pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected)
     let connected = Connected {
         maps: map.reader(),
         map_frame: Arc::default(),
+        transforms: Arc::clone(&transforms),
         paused: Arc::default(),
         bell: Arc::clone(&bell),
         drives_itself,

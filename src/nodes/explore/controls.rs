@@ -5,17 +5,12 @@ use super::connect::Connected;
 use super::desk::{Control, Desk, Request};
 use super::saving::save_as;
 use super::settings::{ExploreNodeError, Settings};
-use crate::geometry::{Point, Polygon};
-use crate::ros::log::Log;
-use crate::ros::msg::geometry_msgs::{PointStamped, PolygonStamped};
 use crate::ros::msg::std_msgs::Bool;
 use crate::ros::msg::std_srvs::{Trigger, TriggerRes};
-use crate::ros::region::{Clicked, RegionDrawing, is_in_frame};
 use crate::ros::{Feed, Node, Service};
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Points and commands come seldom: so often it is looked whether all who tell them are met.
+/// Commands come seldom: so often it is looked whether all who tell them are met.
 const LOOK: Duration = Duration::from_secs(60);
 /// So long a service waits for the thread that explores.
 const ANSWER_WITHIN: Duration = Duration::from_secs(5);
@@ -33,13 +28,12 @@ const SERVICES: [(&str, Control); 7] = [
 
 /// The topics and services that take requests, as long as this lives.
 pub struct Controls {
-    _feeds: Vec<Feed>,
+    _resume: Feed,
     _services: Vec<Service>,
 }
 
 impl Controls {
-    /// Begins to take requests: the services, `explore/resume` (explore_lite), RViz's
-    /// `clicked_point`, and `~set_region`.
+    /// Begins to take requests: the services, and `explore/resume` (explore_lite).
     ///
     /// # Errors
     /// [`ExploreNodeError`] when a service cannot be offered.
@@ -49,16 +43,12 @@ impl Controls {
         connected: &Connected,
         desk: &Desk,
     ) -> Result<Self, ExploreNodeError> {
-        let feeds = vec![
-            listen_to_resume(node, desk),
-            listen_to_clicks(node, desk, connected),
-            listen_to_regions(node, desk, connected),
-        ];
+        let resume = listen_to_resume(node, desk);
         let mut services = vec![serve_save_map(node, settings, connected)?];
         for (name, control) in SERVICES {
             services.push(serve(node, name, control, desk)?);
         }
-        Ok(Self { _feeds: feeds, _services: services })
+        Ok(Self { _resume: resume, _services: services })
     }
 }
 
@@ -96,49 +86,5 @@ fn listen_to_resume(node: &Node, desk: &Desk) -> Feed {
     let desk = desk.clone();
     Feed::listen_seldom(node, "explore/resume", 5, LOOK, move |message: Bool, _| {
         desk.hand_in(Request::Control(if message.data { Control::Resume } else { Control::Pause }));
-    })
-}
-
-fn listen_to_clicks(node: &Node, desk: &Desk, connected: &Connected) -> Feed {
-    let (desk, frame, log) = (desk.clone(), Arc::clone(&connected.map_frame), node.log().clone());
-    let drawing = Mutex::new(RegionDrawing::default());
-    Feed::listen_seldom(node, "clicked_point", 10, LOOK, move |message: PointStamped, _| {
-        if !is_in_frame(&frame, &message.header.frame_id) {
-            log.warn(format_args!("a clicked point in the frame {}: must be in the map's", message.header.frame_id));
-            return;
-        }
-        let clicked =
-            drawing.lock().unwrap_or_else(PoisonError::into_inner).click(Point::new(message.point.x, message.point.y));
-        match clicked {
-            Clicked::Corner(count) => log.info(format_args!("corner {count} of the region; near the first closes it")),
-            Clicked::Closed(region) => explore_region(&desk, &log, region),
-            Clicked::Refused(why) => log.warn(format_args!("the clicked corners make no region: {why}")),
-        }
-    })
-}
-
-fn explore_region(desk: &Desk, log: &Log, region: Polygon) {
-    log.info(format_args!("a region of {} corners is explored from now on", region.corners().len()));
-    desk.hand_in(Request::Region(Some(region)));
-}
-
-fn listen_to_regions(node: &Node, desk: &Desk, connected: &Connected) -> Feed {
-    let (desk, frame, log) = (desk.clone(), Arc::clone(&connected.map_frame), node.log().clone());
-    Feed::listen_seldom(node, "~set_region", 5, LOOK, move |message: PolygonStamped, _| {
-        if !is_in_frame(&frame, &message.header.frame_id) {
-            log.warn(format_args!("a region in the frame {}: must be in the map's", message.header.frame_id));
-            return;
-        }
-        let corners: Vec<Point> =
-            message.polygon.points.iter().map(|p| Point::new(f64::from(p.x), f64::from(p.y))).collect();
-        if corners.is_empty() {
-            log.info("everything is explored from now on");
-            desk.hand_in(Request::Region(None));
-            return;
-        }
-        match Polygon::new(corners) {
-            Ok(region) => explore_region(&desk, &log, region),
-            Err(error) => log.warn(format_args!("~set_region: {error}")),
-        }
     })
 }

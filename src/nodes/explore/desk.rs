@@ -46,8 +46,6 @@ pub struct Order {
 pub enum Request {
     /// By a service or a topic.
     Control(Control),
-    /// Explore inside this region, or everywhere.
-    Region(Option<Polygon>),
     /// By a goal of the action.
     Order(Order),
     /// A goal of the action, or some, shall end.

@@ -1,6 +1,7 @@
 //! `explore_node`: the papers' exploration node in a move_base-era stack.
 
 mod action;
+mod areas;
 mod connect;
 mod controls;
 mod desk;
@@ -24,6 +25,7 @@ use crate::ros::program::{has_helped, run_program};
 use crate::ros::rivals::Rivals;
 use crate::ros::{Node, RosRobot, stop};
 use action::ExploreAction;
+use areas::AreaInputs;
 use connect::{Connected, connect};
 use controls::Controls;
 use desk::Desk;
@@ -60,7 +62,8 @@ fn help() -> String {
          \x20 _map_file:=FILE              save the map there at the end\n\
          \x20 _autostart:=false            wait for ~start, or a goal of the action ~explore\n\
          \x20 _exit_when_done:=true        leave at the end: 0 done, 1 failed, 3 frontiers were left\n\
-         \x20 _region:=[[X, Y], ...]       explore inside a polygon alone, metres in the map's frame\n\
+         \x20 _region:=[[X, Y], ...]       explore and keep inside a polygon, metres in the map's frame\n\
+         \x20 _no_go:=[[[X, Y], ...], ...] keep out of polygons\n\
          \x20 _explorer:={{...}}             any setting of `frontier explore --print-config`\n\n\
          docs/ros.md has all of them, the topics, and what happens when a part of the stack goes away.\n"
     )
@@ -86,7 +89,8 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     let desk = Desk::new(&connected.bell);
     let action = ExploreAction::offer(node, &desk, &connected, Box::new(outputs.teller()))?;
     let _controls = Controls::listen(node, &settings, &connected, &desk)?;
-    let mut operator = Operator::new(node, desk, &connected, action, preset.explorer.region.clone());
+    let areas = AreaInputs::listen(node, &settings, &connected)?;
+    let mut operator = Operator::new(node, desk, &connected, action);
     let (cancel, last_saver) = (std::mem::replace(&mut connected.cancel, Box::new(|| ())), Arc::clone(&saver));
     stop::set_will(move || {
         cancel();
@@ -109,7 +113,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     }
     let mut last: Option<Exploration<'_>> = None;
     loop {
-        let Some(next) = wait_for_work(node, &mut operator, last.as_mut(), &outputs) else {
+        let Some(next) = wait_for_work(node, &mut operator, last.as_mut(), &outputs, &areas) else {
             let code = u8::from(saver.save().is_err() || node.has_failed());
             settle(code);
             return Ok(code);
@@ -122,7 +126,9 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
             }
             (_, earlier) => {
                 let home = earlier.and_then(|earlier| earlier.explorer.start_pose());
-                Exploration::begin(node, &settings, &connected, &outputs, &operator, home)?
+                let begin =
+                    Beginning { node, settings: &settings, connected: &connected, outputs: &outputs, inputs: &areas };
+                begin.explore(&robot, &operator, home)?
             }
         };
         let exploration = last.insert(exploration);
@@ -156,8 +162,12 @@ fn wait_for_work(
     operator: &mut Operator,
     mut last: Option<&mut Exploration<'_>>,
     outputs: &Outputs,
+    areas: &AreaInputs,
 ) -> Option<Next> {
     operator.wait_for_work(node, |operator| {
+        if areas.take_new().is_some() && last.is_some() {
+            operator.begin();
+        }
         let stage = if last.is_some() { Stage::Ended } else { Stage::Idle };
         let (explorer, watcher) = match &mut last {
             Some(Exploration { explorer, watcher }) => (Some(explorer), Some(&*watcher)),
@@ -175,16 +185,24 @@ struct Exploration<'a> {
     watcher: NodeWatcher<'a>,
 }
 
-impl<'a> Exploration<'a> {
-    /// A new one, as the operator wants it now.
-    fn begin(
-        node: &'a Node,
-        settings: &Settings,
-        connected: &Connected,
-        outputs: &'a Outputs,
+/// What an exploration begins with.
+struct Beginning<'a> {
+    node: &'a Node,
+    settings: &'a Settings,
+    connected: &'a Connected,
+    outputs: &'a Outputs,
+    inputs: &'a AreaInputs,
+}
+
+impl<'a> Beginning<'a> {
+    /// A new exploration, as the operator wants it now.
+    fn explore(
+        self,
+        robot: &RosRobot,
         operator: &Operator,
         home: Option<Pose>,
-    ) -> Result<Self, ExploreNodeError> {
+    ) -> Result<Exploration<'a>, ExploreNodeError> {
+        let Self { node, settings, connected, outputs, inputs } = self;
         let Settings { preset, robot: body, .. } = settings;
         let mut wanted = preset.explorer.clone();
         if let Some(order) = operator.order() {
@@ -192,16 +210,21 @@ impl<'a> Exploration<'a> {
             wanted.return_to_start |= order.return_home;
         }
         let mut explorer = Explorer::new(wanted, &body.traits())?;
-        explorer.set_region(operator.region());
+        let areas = operator.areas(inputs.current());
+        robot.set_areas(&areas);
+        let watcher = NodeWatcher::new(node, outputs, inputs, &areas, preset.explorer.thresholds);
+        explorer.set_areas(areas);
         if let Some(home) = home {
             explorer.set_start_pose(home);
         }
         if let Some(planner) = asking_planner(node, settings, connected) {
             explorer.set_planner(planner);
         }
-        Ok(Self { explorer, watcher: NodeWatcher::new(node, outputs, preset.explorer.thresholds) })
+        Ok(Exploration { explorer, watcher })
     }
+}
 
+impl Exploration<'_> {
     /// Explores, or goes on with it.
     fn run(&mut self, node: &Node, robot: &mut RosRobot, operator: &mut Operator) -> End {
         let Self { explorer, watcher } = self;

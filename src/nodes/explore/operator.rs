@@ -4,8 +4,7 @@ use super::action::{ExploreAction, Outcome};
 use super::connect::Connected;
 use super::desk::{Answer, Desk, Order, Pending, Request};
 use super::rules::{Effect, Rule, Stage, rule};
-use crate::explore::{End, EndReason, Explorer, STOPPED};
-use crate::geometry::Polygon;
+use crate::explore::{Areas, End, EndReason, Explorer, STOPPED};
 use crate::ros::Node;
 use crate::ros::actionlib::is_meant;
 use crate::ros::display::status_sentence;
@@ -45,10 +44,6 @@ pub struct Operator {
     desk: Desk,
     paused: Arc<AtomicBool>,
     action: ExploreAction,
-    /// Where to explore, unless an order says otherwise.
-    region: Option<Polygon>,
-    /// The region was exchanged since this was last asked.
-    region_is_new: bool,
     next: Option<Next>,
     /// Why the exploration under way shall end.
     stop: Option<String>,
@@ -63,14 +58,12 @@ pub struct Operator {
 
 impl Operator {
     /// One who has nothing to do yet.
-    pub fn new(node: &Node, desk: Desk, connected: &Connected, action: ExploreAction, region: Option<Polygon>) -> Self {
+    pub fn new(node: &Node, desk: Desk, connected: &Connected, action: ExploreAction) -> Self {
         Self {
             log: node.log().clone(),
             desk,
             paused: Arc::clone(&connected.paused),
             action,
-            region,
-            region_is_new: false,
             next: None,
             stop: None,
             order: None,
@@ -90,19 +83,17 @@ impl Operator {
         self.stop.clone()
     }
 
-    /// Whether the region was exchanged since this was last asked.
-    pub fn takes_new_region(&mut self) -> bool {
-        std::mem::take(&mut self.region_is_new)
-    }
-
     /// The order that is carried out, if one is.
     pub const fn order(&self) -> Option<&Order> {
         self.order.as_ref()
     }
 
-    /// The region of the exploration that begins now.
-    pub fn region(&self) -> Option<Polygon> {
-        self.order.as_ref().map_or_else(|| self.region.clone(), |order| order.region.clone())
+    /// The areas of the exploration that begins now: an order has its own region.
+    pub fn areas(&self, current: Areas) -> Areas {
+        match &self.order {
+            Some(order) => Areas { region: order.region.clone(), ..current },
+            None => current,
+        }
     }
 
     /// Whether there is something to do next.
@@ -137,7 +128,6 @@ impl Operator {
                     let rule = rule(control, matter.stage, self.paused.load(Ordering::Relaxed));
                     self.control(pending, rule, matter);
                 }
-                Request::Region(region) => self.exchange_region(region, matter),
                 Request::Order(order) => self.take_order(order, matter),
                 Request::Cancel(message) => self.cancel(&message),
             }
@@ -230,18 +220,6 @@ impl Operator {
             self.next = Some(Next::GoHome);
         }
         Answer::yes(format!("{says} at ({:.2}, {:.2}) m", home.x, home.y))
-    }
-
-    fn exchange_region(&mut self, region: Option<Polygon>, matter: &mut Matter<'_>) {
-        self.region.clone_from(&region);
-        match &mut matter.explorer {
-            Some(explorer) if matter.stage.is_under_way() => {
-                explorer.set_region(region);
-                self.region_is_new = true;
-            }
-            _ if matter.stage == Stage::Ended => self.next = Some(Next::Explore),
-            _ => {}
-        }
     }
 
     fn take_order(&mut self, order: Order, matter: &Matter<'_>) {

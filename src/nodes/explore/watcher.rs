@@ -1,13 +1,14 @@
 //! Looks on while the node explores: shows every decision and keeps the figures of the
 //! status.
 
+use super::areas::AreaInputs;
 use super::explain::explain;
 use super::operator::{Matter, Operator};
 use super::outputs::Outputs;
 use super::rules::Stage;
-use crate::explore::{Counts, Decision, DecisionRecord, End, Explorer, Phase, Watcher};
+use crate::explore::{Areas, Counts, Decision, DecisionRecord, End, Explorer, Phase, Watcher};
 use crate::geometry::Pose;
-use crate::grid::{LiveCensus, Thresholds};
+use crate::grid::{AreaCensus, Thresholds};
 use crate::robot::{Observation, Robot};
 use crate::ros::display::{StatusInput, status};
 use crate::ros::log::Level;
@@ -21,11 +22,12 @@ const STEP_M: f64 = 0.02;
 pub struct NodeWatcher<'a> {
     node: &'a Node,
     outputs: &'a Outputs,
+    inputs: &'a AreaInputs,
     began_s: Option<f64>,
     now_s: f64,
     last_pose: Option<Pose>,
     distance_m: f64,
-    census: LiveCensus,
+    census: AreaCensus,
     known_area_m2: f64,
     free_area_m2: f64,
     frontiers: usize,
@@ -41,15 +43,24 @@ pub struct NodeWatcher<'a> {
 
 impl<'a> NodeWatcher<'a> {
     /// A watcher of a run that begins now; areas are counted by these thresholds.
-    pub fn new(node: &'a Node, outputs: &'a Outputs, thresholds: Thresholds) -> Self {
+    pub fn new(
+        node: &'a Node,
+        outputs: &'a Outputs,
+        inputs: &'a AreaInputs,
+        areas: &Areas,
+        thresholds: Thresholds,
+    ) -> Self {
+        let mut census = AreaCensus::new(thresholds);
+        census.set_areas(areas);
         Self {
             node,
             outputs,
+            inputs,
             began_s: None,
             now_s: 0.0,
             last_pose: None,
             distance_m: 0.0,
-            census: LiveCensus::new(thresholds),
+            census,
             known_area_m2: 0.0,
             free_area_m2: 0.0,
             frontiers: 0,
@@ -166,7 +177,6 @@ impl Watcher<RosRobot> for Attended<'_, '_> {
         let explain = || watcher.explanation();
         let now_s = observation.stamp_s;
         operator.serve(&mut Matter { stage, explorer: Some(explorer), now_s, explain: &explain });
-        watcher.region_shown &= !operator.takes_new_region();
         watcher.look(robot, explorer, now_s);
     }
 
@@ -181,14 +191,21 @@ impl Watcher<RosRobot> for Attended<'_, '_> {
 
 impl NodeWatcher<'_> {
     /// Looks on before a step, or where none is made.
-    fn look(&mut self, robot: &RosRobot, explorer: &Explorer, now_s: f64) {
+    fn look(&mut self, robot: &RosRobot, explorer: &mut Explorer, now_s: f64) {
         if robot.is_ready() {
             self.now_s = now_s;
             self.began_s.get_or_insert(now_s);
         }
+        if let Some(areas) = self.inputs.take_new() {
+            self.census.set_areas(&areas);
+            robot.set_areas(&areas);
+            explorer.set_areas(areas);
+            self.region_shown = false;
+        }
         if !self.region_shown {
             self.region_shown = true;
             self.outputs.show_region(explorer, &self.frame);
+            self.inputs.show();
         }
     }
 
@@ -205,6 +222,7 @@ impl NodeWatcher<'_> {
         }
         if let (Some(record), Some(map)) = (&decision.record, robot.received_map()) {
             self.frontiers = record.candidates.len();
+            self.inputs.show_blacklist(explorer.blacklisted());
             record.why.clone_into(&mut self.message);
             // A goal that is kept is no news.
             if record.goal.is_none() || record.goal != self.last_goal {

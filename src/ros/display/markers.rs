@@ -25,7 +25,7 @@ const NUMBERED: usize = 20;
 /// What is shown now, to take away what is not any more.
 #[derive(Clone, Debug, Default)]
 pub struct FrontierMarkers {
-    shown: BTreeSet<(&'static str, i32)>,
+    shown: Shown,
 }
 
 impl FrontierMarkers {
@@ -56,13 +56,24 @@ impl FrontierMarkers {
             }
         }
         markers.extend(tour(record));
+        self.shown.update(markers, frame, stamp_s)
+    }
+}
+
+/// The markers that are shown now, by their namespaces and numbers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Shown(BTreeSet<(&'static str, i32)>);
+
+impl Shown {
+    /// Markers in a frame, with the removal of those that were shown and are not among them.
+    pub fn update(&mut self, markers: Vec<(&'static str, Marker)>, frame: &str, stamp_s: f64) -> MarkerArray {
         let now: BTreeSet<(&'static str, i32)> = markers.iter().map(|(ns, marker)| (*ns, marker.id)).collect();
         let gone = self
-            .shown
+            .0
             .difference(&now)
             .map(|&(ns, id)| (ns, Marker { id, action: i32::from(Marker::DELETE), ..Marker::default() }));
         let all: Vec<(&'static str, Marker)> = gone.collect::<Vec<_>>().into_iter().chain(markers).collect();
-        self.shown = now;
+        self.0 = now;
         let finish = |(ns, mut marker): (&'static str, Marker)| {
             marker.header = header(frame, stamp_s);
             marker.ns = ns.to_owned();
@@ -89,7 +100,7 @@ const fn marker_id(id: u64) -> i32 {
     (id & 0x7fff_ffff) as i32
 }
 
-fn marker(kind: u8, id: u64, color: ColorRGBA) -> Marker {
+pub(super) fn marker(kind: u8, id: u64, color: ColorRGBA) -> Marker {
     Marker {
         id: marker_id(id),
         type_: i32::from(kind),
@@ -135,7 +146,7 @@ fn tour(record: &DecisionRecord) -> Option<(&'static str, Marker)> {
     Some((TOUR, Marker { scale, points, ..marker(Marker::LINE_STRIP, 0, orange) }))
 }
 
-const fn at(x: f64, y: f64, z: f64) -> PoseMessage {
+pub(super) const fn at(x: f64, y: f64, z: f64) -> PoseMessage {
     PoseMessage { position: PointMessage { x, y, z }, orientation: Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 } }
 }
 

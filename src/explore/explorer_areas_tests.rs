@@ -1,0 +1,264 @@
+//! Regions and no-go areas that hold, and failures that are none, with a robot that jumps.
+
+use super::teleporter::{Teleporter, point_robot};
+use super::{HOUSE, *};
+use crate::explore::{Areas, CandidateStatus};
+use crate::geometry::{Path, Polygon};
+use crate::planning::{GlobalPlanner, PlanError};
+use crate::robot::{Navigation, NavigationState};
+
+fn area(x: (f64, f64), y: (f64, f64)) -> Polygon {
+    Polygon::try_from(vec![[x.0, y.0], [x.1, y.0], [x.1, y.1], [x.0, y.1]]).unwrap()
+}
+
+/// The left room of the house, with the wall that ends it.
+fn left_room() -> Areas {
+    Areas { region: Some(area((0.0, 7.2), (0.0, 9.0))), no_go: Vec::new() }
+}
+
+fn explorer(areas: &Areas) -> Explorer {
+    let Areas { region, no_go } = areas.clone();
+    let turns = TurnSettings { at_start: false, ..TurnSettings::default() };
+    Explorer::new(ExplorerSettings { region, no_go, turns, ..ExplorerSettings::default() }, &point_robot()).unwrap()
+}
+
+/// Follows to the end; every goal with the way to it.
+fn explore(robot: &mut Teleporter, explorer: &mut Explorer) -> (End, Vec<(Pose, Path)>) {
+    let mut goals = Vec::new();
+    for _ in 0..2000 {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+        if let (Command::Drive { goal_in_map, .. }, Some(path)) = (&decision.command, &decision.path) {
+            goals.push((*goal_in_map, Path::clone(path)));
+        }
+        if let Some(end) = decision.end {
+            return (end, goals);
+        }
+    }
+    panic!("the run did not end");
+}
+
+#[test]
+fn no_goal_and_no_way_leaves_the_region() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 2.5);
+    let areas = left_room();
+    let (end, goals) = explore(&mut robot, &mut explorer(&areas));
+    assert_eq!(end.reason, EndReason::OutsideRegion, "{}", end.message);
+    assert!(end.left_behind.outside_region > 0 && goals.len() > 1);
+    for (goal, path) in goals {
+        assert!(areas.contain(goal.position()), "{goal:?}");
+        assert!(path.poses.iter().all(|pose| areas.contain(pose.position())), "{path:?}");
+    }
+    let inside = (1..7).flat_map(|x| (1..8).map(move |y| Cell::new(x, y)));
+    let unknown = inside.filter(|&cell| robot.map.get(cell) == Some(OccupancyGrid::UNKNOWN)).count();
+    assert_eq!(unknown, 0, "and all of it is explored");
+}
+
+#[test]
+fn a_robot_outside_its_region_gets_in_and_says_so_once() {
+    let mut robot = Teleporter::new(HOUSE, 10.5, 4.5);
+    robot.map = robot.world.clone();
+    for index in 0..robot.map.info().len() {
+        let cell = robot.map.info().cell(index);
+        if cell.x < 4 {
+            robot.map.set(cell, OccupancyGrid::UNKNOWN);
+        }
+    }
+    let mut explorer = explorer(&left_room());
+    let mut notices = Vec::new();
+    for _ in 0..200 {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+        notices.extend(decision.notice);
+        if let Command::Drive { goal_in_map, .. } = decision.command {
+            assert!(left_room().contain(goal_in_map.position()), "{goal_in_map:?}");
+        }
+        if let Some(end) = decision.end {
+            assert_eq!((end.reason, end.left_behind.frontiers), (EndReason::Complete, 0), "{}", end.message);
+            break;
+        }
+    }
+    assert!(left_room().contain(robot.pose.position()), "{:?}", robot.pose);
+    let told = notices.iter().filter(|text| text.contains("outside of its region and drives in")).count();
+    assert_eq!(told, 1, "{notices:?}");
+}
+
+#[test]
+fn a_region_to_which_no_way_is_known_is_not_explored() {
+    let mut robot = Teleporter::new("#########\n#...#...#\n#########", 1.5, 1.5);
+    let beyond = Areas { region: Some(area((5.0, 8.0), (0.0, 3.0))), no_go: Vec::new() };
+    let (end, _) = explore(&mut robot, &mut explorer(&beyond));
+    assert_eq!(end.reason, EndReason::AllUnreachable);
+    assert!(end.message.contains("no known way leads in"), "{}", end.message);
+}
+
+/// The corridor below and the door above lead to the right room.
+#[test]
+fn a_no_go_area_with_a_way_round_is_gone_round() {
+    let no_go = vec![area((7.0, 9.0), (3.5, 5.5))];
+    let areas = Areas { region: None, no_go };
+    let mut robot = Teleporter::new(HOUSE, 2.5, 4.5);
+    let (end, goals) = explore(&mut robot, &mut explorer(&areas));
+    assert_eq!(end.reason, EndReason::Complete, "{}", end.message);
+    let ways = goals.iter().flat_map(|(_, path)| &path.poses);
+    assert!(ways.clone().all(|pose| areas.contain(pose.position())));
+    assert!(goals.iter().any(|(goal, _)| goal.x > 9.0), "the right room was entered: {goals:?}");
+}
+
+#[test]
+fn what_lies_beyond_a_no_go_area_is_named() {
+    // A hall whose middle must not be entered; its lidar sees three cells far.
+    let hall = format!("{0}\n#{1}#\n{0}", "#".repeat(22), ".".repeat(20));
+    let mut robot = Teleporter::new(&hall, 3.5, 1.5);
+    let areas = Areas { region: None, no_go: vec![area((8.0, 9.0), (0.0, 3.0))] };
+    let mut strict = explorer(&areas);
+    strict.settings.goal.search_radius_m = 1.0;
+    let (end, goals) = explore(&mut robot, &mut strict);
+    assert!(goals.iter().all(|(goal, _)| goal.x < 8.0));
+    assert_eq!(end.reason, EndReason::OutsideRegion, "{}", end.message);
+    assert!(end.message.contains("beyond what these forbid (1)"), "{}", end.message);
+    assert_eq!(end.left_behind.unreachable, 1);
+}
+
+#[test]
+fn new_areas_take_the_goal_away_at_once_and_blame_nobody() {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 4.5);
+    robot.stride_m = Some(0.2);
+    let mut explorer = explorer(&Areas::default());
+    let goal = (0..50).find_map(|_| {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+        explorer.goal()
+    });
+    let goal = goal.unwrap();
+    let (x, y) = (goal.x, goal.y);
+    explorer.set_areas(Areas { region: None, no_go: vec![area((x - 1.2, x + 1.2), (y - 1.2, y + 1.2))] });
+    let decision = explorer.step(&robot.observation());
+    assert!(decision.record.is_some(), "it is decided anew");
+    assert!(explorer.goal().is_none_or(|new| !explorer.areas().is_in_no_go(new.position())));
+    assert!(explorer.blacklisted().is_empty() && explorer.counts().goals_failed == 0);
+}
+
+/// Leads straight on, whatever is in the way.
+struct Straight;
+
+impl GlobalPlanner for Straight {
+    fn name(&self) -> &'static str {
+        "straight"
+    }
+
+    fn plan(&mut self, _: &crate::grid::Costmap, start: &Pose, goal: &Pose) -> Result<Path, PlanError> {
+        Ok(Path { poses: vec![*start, *goal], cost: 1.0 })
+    }
+}
+
+#[test]
+fn a_plan_that_leads_through_a_no_go_area_is_a_no() {
+    let open = format!("{0}\n{1}{0}", "?".repeat(15), format!("{}\n", ".".repeat(15)).repeat(5));
+    let areas = Areas { region: None, no_go: vec![area((5.0, 6.0), (1.0, 5.0))] };
+    let mut robot = Teleporter::new(&open, 3.5, 3.5);
+    robot.map = robot.world.clone();
+    let mut explorer = explorer(&areas);
+    explorer.set_planner(Box::new(Straight));
+    let record = (0..5).find_map(|_| explorer.step(&robot.observation()).record).unwrap();
+    let path = |goal: Pose| {
+        (1..100).map(move |i| robot.pose.position() + (goal.position() - robot.pose.position()) * f64::from(i) / 100.0)
+    };
+    for candidate in &record.candidates {
+        let crosses = candidate.goal.is_some_and(|goal| path(goal).any(|point| areas.is_in_no_go(point)));
+        assert!(!(crosses && candidate.status == CandidateStatus::Chosen), "{candidate:?}");
+    }
+}
+
+/// An explorer under way to a goal.
+fn under_way() -> (Teleporter, Explorer) {
+    let mut robot = Teleporter::new(HOUSE, 2.5, 4.5);
+    robot.stride_m = Some(0.1);
+    let mut explorer = explorer(&Areas::default());
+    while explorer.goal().is_none() {
+        let decision = explorer.step(&robot.observation());
+        robot.obey(&decision.command);
+    }
+    (robot, explorer)
+}
+
+#[test]
+fn a_goal_that_somebody_else_takes_away_is_no_failure() {
+    for state in [NavigationState::Preempted, NavigationState::Unavailable("nobody drives".to_owned())] {
+        let (mut robot, mut explorer) = under_way();
+        for _ in 0..10 {
+            robot.navigation.state = state.clone();
+            let decision = explorer.step(&robot.observation());
+            robot.obey(&decision.command);
+        }
+        assert!(explorer.blacklisted().is_empty() && explorer.counts().goals_failed == 0, "{state:?}");
+    }
+}
+
+#[test]
+fn a_rest_is_no_failure() {
+    let (mut robot, mut explorer) = under_way();
+    let goal = explorer.goal();
+    // The node holds the robot, and time stands still.
+    robot.navigation = Navigation { command: 0, state: NavigationState::Idle };
+    let decision = explorer.step(&robot.observation());
+    robot.obey(&decision.command);
+    assert_eq!(explorer.goal(), goal);
+    assert!(explorer.blacklisted().is_empty());
+}
+
+#[test]
+fn a_look_round_that_is_taken_away_says_nothing() {
+    let look = |state: NavigationState| {
+        let mut robot = Teleporter::new(HOUSE, 2.5, 4.5);
+        let mut explorer = explorer(&Areas::default());
+        let mut observation = robot.observation();
+        explorer.step(&observation);
+        observation.navigation = Navigation { command: 7, state };
+        explorer.look_is_over(Point::new(3.5, 4.5), robot.pose, &observation, 7);
+        explorer.look_is_over(Point::new(3.5, 4.5), robot.pose, &observation, 7);
+        let is_spent = explorer.blacklist.is_spent(robot.pose.position(), Point::new(3.5, 4.5), true);
+        (is_spent, explorer.blacklisted().into_iter().map(|one| one.why).collect::<Vec<_>>())
+    };
+    let why = "the look round was not made: no room".to_owned();
+    assert_eq!(look(NavigationState::Preempted), (false, Vec::new()));
+    assert_eq!(look(NavigationState::Succeeded), (true, Vec::new()));
+    assert_eq!(look(NavigationState::Aborted("no room".to_owned())), (false, vec![why]));
+}
+
+#[test]
+fn what_failed_is_listed_with_its_reason_and_cleared_on_demand() {
+    let (mut robot, mut explorer) = under_way();
+    let goal = explorer.goal().unwrap();
+    robot.navigation.state = NavigationState::Aborted("a cat in the way".to_owned());
+    explorer.step(&robot.observation());
+    let listed = explorer.blacklisted();
+    assert_eq!((listed.len(), listed[0].failures, listed[0].is_left_alone), (1, 1, false));
+    assert_eq!((listed[0].why.as_str(), listed[0].place), ("a cat in the way", goal.position()));
+    assert_eq!(explorer.clear_blacklist(), 1);
+    assert!(explorer.blacklisted().is_empty() && explorer.clear_blacklist() == 0);
+}
+
+#[test]
+fn a_door_that_opens_is_tried_again_in_the_same_round() {
+    let (mut robot, mut explorer) = under_way();
+    let goal = explorer.goal().unwrap();
+    explorer.settings.goal.reconsider_period_s = Some(1.0);
+    robot.navigation.state = NavigationState::Aborted("a shut door".to_owned());
+    robot.pose = Pose::new(goal.x - 1.0, goal.y, 0.0);
+    // Beside it is a wall on the map of the failure.
+    let at = robot.map.info().cell_at(goal.position());
+    for (dx, dy) in [(1, 0), (1, 1), (1, -1)] {
+        robot.world.set(at.offset((dx, dy)), 100);
+    }
+    explorer.step(&robot.observation());
+    assert_eq!(explorer.blacklisted().len(), 1);
+    for (dx, dy) in [(1, 0), (1, 1), (1, -1)] {
+        robot.world.set(at.offset((dx, dy)), 0);
+    }
+    let decision = explorer.step(&robot.observation());
+    robot.obey(&decision.command);
+    let decision = explorer.step(&robot.observation());
+    let notices = [decision.notice, explorer.notice.take()];
+    assert!(explorer.blacklisted().is_empty(), "{:?} {notices:?}", explorer.blacklisted());
+}
