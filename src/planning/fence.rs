@@ -8,7 +8,7 @@
 use super::endpoints::ESCAPE_RADIUS_M;
 use crate::geometry::{Areas, Path, Point, Pose};
 use crate::grid::{
-    AreaCells, Cell, CellRect, CellValues, Changes, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, Live, NEIGHBOURS_8,
+    AreaCells, Cell, CellRect, CellValues, Changes, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, Live,
     Neighbourhood, Snapshot, UNKNOWN_COST,
 };
 use std::collections::{HashSet, VecDeque};
@@ -17,6 +17,11 @@ use std::sync::Arc;
 /// A place inside that is smaller than this is only gone to where there is no larger one, square
 /// metres.
 const POCKET_M2: f64 = 1.0;
+
+/// So far beside its way in a robot may drive, so that a planner that knows how it turns finds one,
+/// metres; and so far beside its way out of a no-go area.
+const BESIDE_M: f64 = 0.75;
+const BESIDE_OUT_M: f64 = 0.4;
 
 /// Where a robot stands, by its areas.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -216,6 +221,7 @@ impl Fenced {
             Some(vec![own])
         };
         let Some(mut way) = out else { return Whereabouts::LockedOut { no_go: true } };
+        let out_cells = if no_go { way.len() } else { 0 };
         let gate = way.first().copied().unwrap_or(own);
         let is_inside = |cell: Cell| costmap.is_passable(cell) && cells.is_inside(cell) && !cells.is_near_no_go(cell);
         let enough = (POCKET_M2 / self.info.cell_area_m2()).ceil().clamp(4.0, 1e5) as usize;
@@ -238,12 +244,19 @@ impl Fenced {
         way.extend(rest.unwrap_or_default());
         // Both parts begin or end with a cell that is there already.
         let way_m = way.len().saturating_sub(2) as f64 * self.info.resolution_m();
-        // Three cells wide, so that also a planner that knows how the robot turns gets through.
-        let beside = way.iter().flat_map(|&cell| NEIGHBOURS_8.map(|offset| cell.offset(offset)));
-        let beside = beside.filter(|&cell| !cells.is_near_no_go(cell));
-        self.way_in = way.iter().copied().chain(beside).collect();
+        let beside = self.around(&way, BESIDE_M).filter(|&cell| !cells.is_near_no_go(cell));
+        self.way_in = self.around(&way[..out_cells], BESIDE_OUT_M).chain(way.iter().copied()).chain(beside).collect();
         self.keeps_region = !is_locked_out;
         if is_locked_out { Whereabouts::LockedOut { no_go: false } } else { Whereabouts::Leaving { no_go, way_m } }
+    }
+
+    /// The cells within a distance of those of a way.
+    fn around<'a>(&self, way: &'a [Cell], distance_m: f64) -> impl Iterator<Item = Cell> + use<'a> {
+        let cells = self.info.cells(distance_m);
+        let side = cells.floor() as i32;
+        let square = (-side..=side).flat_map(move |y| (-side..=side).map(move |x| (x, y)));
+        let disc: Vec<(i32, i32)> = square.filter(|&(x, y)| f64::from(x).hypot(f64::from(y)) <= cells).collect();
+        way.iter().flat_map(move |&cell| disc.clone().into_iter().map(move |offset| cell.offset(offset)))
     }
 
     /// The cells of the shortest way over open cells from one to the nearest that will do, the last first.

@@ -41,7 +41,7 @@ impl Explorer {
                 "the robot stands in a no-go area, or beside one, and no known way leads out".to_owned()
             }
             Whereabouts::LockedOut { no_go: false } => {
-                "the robot stands outside of its region and no known way leads in: until one does it may drive outside"
+                "the robot stands outside of its region and no known way leads in: of the region only what is seen from outside is explored"
                     .to_owned()
             }
         };
