@@ -124,6 +124,11 @@ pub struct NodeParams {
     pub yield_to_others: f64,
     /// Where the map is saved at the end, as map_saver's `-f`; not at all when empty.
     pub map_file: String,
+    /// Where the session is kept, a JSON file: what is needed to go on after a crash; not at all
+    /// when empty. Its map lies beside it.
+    pub session_file: String,
+    /// Go on from this session, where its file is there.
+    pub resume_from: String,
     /// Leave when the exploration has ended.
     pub exit_when_done: bool,
     /// Publish markers for RViz.
@@ -175,6 +180,8 @@ impl Default for NodeParams {
             autostart: true,
             yield_to_others: 300.0,
             map_file: String::new(),
+            session_file: String::new(),
+            resume_from: String::new(),
             exit_when_done: false,
             visualize: true,
             robot_base_frame: None,

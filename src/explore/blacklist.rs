@@ -12,9 +12,11 @@
 //! forgotten at once; each time the map must open twice as far, as maps tremble.
 
 mod listed;
+mod saved;
 mod surroundings;
 
 pub use listed::{Blacklisted, Forgiven};
+pub use saved::SavedBlacklist;
 
 use crate::geometry::Point;
 use crate::grid::Thresholds;

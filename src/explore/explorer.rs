@@ -13,6 +13,7 @@ mod follow;
 mod home;
 mod notices;
 mod pause;
+mod recall;
 mod recover;
 
 use super::blacklist::Blacklist;
@@ -29,6 +30,7 @@ use crate::geometry::Pose;
 use crate::planning::Driven;
 use crate::robot::{CommandId, MapSnapshot, Observation};
 use follow::Arrival;
+pub use recall::Memory;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 

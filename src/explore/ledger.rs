@@ -63,6 +63,11 @@ impl Ledger {
         &self.spent
     }
 
+    /// Goes on from what an earlier session spent.
+    pub const fn go_on_from(&mut self, spent: TimeSpent) {
+        self.spent = spent;
+    }
+
     /// Books the time since the last tick.
     pub fn book(&mut self, now_s: f64, pose: Option<&Pose>, phase: Phase) {
         let Some((last_s, last_pose)) = self.last.replace((now_s, pose.copied())) else { return };

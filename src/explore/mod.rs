@@ -22,7 +22,7 @@ mod trouble;
 
 pub use crate::geometry::Areas;
 pub use blacklist::{Blacklist, Blacklisted, Failure, Forgiven, Taboo, TabooConfig};
-pub use explorer::Explorer;
+pub use explorer::{Explorer, Memory};
 pub use ledger::TimeSpent;
 pub use record::{
     CandidateRecord, CandidateStatus, Counts, DecisionRecord, End, EndReason, LeftBehind, Position, SeenFrontiers,

@@ -1,9 +1,11 @@
 //! Where a robot may be: the region that it keeps to, and the areas that it keeps out of.
 
 use super::{Point, Polygon};
+use serde::{Deserialize, Serialize};
 
 /// A region to explore and areas that are not to be entered, in metres of the map frame.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Areas {
     /// The region that the robot keeps to; everywhere when absent.
     pub region: Option<Polygon>,

@@ -5,7 +5,7 @@
 //! reach the disk, and take the name in one step.
 
 use super::atomic_file::AtomicFile;
-use super::destination::{Destination, temporary_beside};
+use super::destination::{Destination, folder_of, temporary_beside, temporary_prefix};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -18,6 +18,27 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(bytes)?;
     file.commit()
+}
+
+/// Removes what processes that were killed left behind as they wrote this file; returns how many
+/// files those were. Nobody else may be writing it at the same time.
+pub fn clear_stale(path: &Path) -> usize {
+    let prefix = temporary_prefix(path);
+    let Ok(entries) = std::fs::read_dir(folder_of(path)) else { return 0 };
+    let is_stale = |entry: &std::fs::DirEntry| entry.file_name().to_string_lossy().starts_with(&prefix);
+    entries.flatten().filter(is_stale).filter(|entry| std::fs::remove_file(entry.path()).is_ok()).count()
+}
+
+/// Reads a file of text, if there is one.
+///
+/// # Errors
+/// What the file system says against it.
+pub fn read_if_there(path: &Path) -> io::Result<Option<String>> {
+    match std::fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
 }
 
 /// Makes a folder, and those above it, unless it is there.
@@ -54,6 +75,18 @@ mod tests {
         write_atomic(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_a_killed_process_left_is_cleared_and_nothing_else() {
+        let dir = tempfile::tempdir().unwrap();
+        for name in [".writing-a.txt-Xy12", ".writing-ab.txt-Xy12", "a.txt"] {
+            fs::write(dir.path().join(name), "x").unwrap();
+        }
+        assert_eq!(clear_stale(&dir.path().join("a.txt")), 1);
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2);
+        assert_eq!(read_if_there(&dir.path().join("a.txt")).unwrap().as_deref(), Some("x"));
+        assert_eq!(read_if_there(&dir.path().join("b.txt")).unwrap(), None);
     }
 
     #[test]

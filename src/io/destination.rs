@@ -66,7 +66,8 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 /// permissions, or what the umask leaves.
 pub(super) fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".writing-");
+    let prefix = temporary_prefix(target);
+    builder.prefix(&prefix);
     #[cfg(unix)]
     let permissions = {
         use std::os::unix::fs::PermissionsExt;
@@ -75,6 +76,13 @@ pub(super) fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempF
     #[cfg(unix)]
     builder.permissions(permissions);
     builder.tempfile_in(folder_of(target))
+}
+
+/// How the names of temporary files for a file begin: what a killed process leaves behind can be
+/// told from what others are writing.
+pub(super) fn temporary_prefix(target: &Path) -> String {
+    let name = target.file_name().map_or_else(Default::default, |name| name.to_string_lossy().into_owned());
+    format!(".writing-{name}-")
 }
 
 #[cfg(all(test, unix))]

@@ -16,7 +16,7 @@ mod pgm;
 mod settings;
 mod worlds;
 
-pub use atomic::{create_folder, write_atomic};
+pub use atomic::{clear_stale, create_folder, read_if_there, write_atomic};
 pub use atomic_file::AtomicFile;
 pub use error::MapError;
 pub use map_load::{LoadedMap, load_map};

@@ -1,6 +1,10 @@
 //! A map topic with its updates: gmapping's and Cartographer's `map`, move_base's
 //! `global_costmap/costmap`.
 
+mod remembered;
+
+pub use remembered::Recalled;
+
 use super::bell::Bell;
 use super::convert;
 use super::directory::list;
@@ -9,7 +13,8 @@ use super::log::Level;
 use super::msg::map_msgs::OccupancyGridUpdate;
 use super::msg::nav_msgs::OccupancyGrid as MapMessage;
 use super::node::Node;
-use crate::grid::{Changes, Live, OccupancyGrid};
+use crate::grid::{Changes, Live, MapMemory, OccupancyGrid};
+use remembered::Remembered;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -71,6 +76,8 @@ struct Shared {
 #[derive(Default)]
 struct Kept {
     map: Option<KeptMap>,
+    /// The map of an earlier session.
+    earlier: Remembered,
     last_update_seq: Option<u32>,
 }
 
@@ -99,6 +106,11 @@ impl MapFeed {
         let updates = (!updates_topic.is_empty()).then(|| listen_to_updates(node, updates_topic, &state, bell));
         let feed = listen_to_maps(node, topic, &state, bell);
         Self { node: node.clone(), topic: topic.to_owned(), state, bell: Arc::clone(bell), feed, _updates: updates }
+    }
+
+    /// Lays the map of an earlier session below those that come from now on, where it agrees.
+    pub fn remember(&self, earlier: MapMemory) {
+        lock(&self.state.kept).earlier = Remembered::new(Some(earlier));
     }
 
     /// The newest map; after a lost update, asks for the whole map again.
@@ -165,6 +177,12 @@ impl MapReader {
     pub fn newest(&self) -> Option<ReceivedMap> {
         lock(&self.0.newest).clone()
     }
+
+    /// What has become of the map of an earlier session.
+    #[must_use]
+    pub fn recalled(&self) -> Recalled {
+        lock(&self.0.kept).earlier.state()
+    }
 }
 
 fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell>) -> Feed {
@@ -177,7 +195,8 @@ fn listen_to_maps(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<Bell
             Ok(grid) => {
                 let mut kept = lock(&state.kept);
                 let mut live = kept.map.take().map(|map| map.live);
-                Live::renew(&mut live, Arc::new(grid));
+                let grid = kept.earlier.whole(grid);
+                Live::renew(&mut live, grid);
                 kept.map = live.map(|live| KeptMap { live, frame, stamp_s, arrived });
                 state.show(&kept);
                 drop(kept);
@@ -200,8 +219,12 @@ fn listen_to_updates(node: &Node, topic: &str, state: &Arc<Shared>, bell: &Arc<B
             state.has_gap.store(true, Ordering::Relaxed);
         }
         // An update that comes before its map is part of that map already.
-        let Some(map) = &mut kept.map else { return };
-        match map.live.apply(&patch) {
+        let Kept { map: Some(map), earlier, .. } = &mut *kept else { return };
+        let applied = match earlier.patch(&patch) {
+            Some(joined) => joined.map(|joined| map.live.replace(joined)),
+            None => map.live.apply(&patch),
+        };
+        match applied {
             Ok(()) => (map.stamp_s, map.arrived) = (stamp_s, arrived),
             // The map has changed its size, and the whole one is on its way.
             Err(error) => {

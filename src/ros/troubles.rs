@@ -33,6 +33,8 @@ pub enum Trouble {
     CostmapUnknown,
     /// The map cannot be saved.
     MapFile,
+    /// The session cannot be saved.
+    Session,
 }
 
 struct Entry {

@@ -8,6 +8,7 @@ use super::settings::ExploreNodeError;
 use crate::geometry::{Point, Polygon};
 use crate::ros::actionlib::{Entry, GoalBook};
 use crate::ros::convert;
+use crate::ros::map_feed::MapReader;
 use crate::ros::msg::actionlib_msgs::{GoalID, GoalStatus, GoalStatusArray};
 use crate::ros::msg::frontier_explorer::{
     ExplorationStatus, ExploreActionFeedback, ExploreActionGoal, ExploreActionResult, ExploreFeedback, ExploreGoal,
@@ -170,13 +171,12 @@ fn tell(teller: &Teller) {
 struct MapFrame {
     node: Node,
     transforms: Arc<Transforms>,
-    name: Arc<Mutex<String>>,
+    maps: MapReader,
 }
 
 impl MapFrame {
     fn new(node: &Node, connected: &Connected) -> Self {
-        let (transforms, name) = (Arc::clone(&connected.transforms), Arc::clone(&connected.map_frame));
-        Self { node: node.clone(), transforms, name }
+        Self { node: node.clone(), transforms: Arc::clone(&connected.transforms), maps: connected.maps.clone() }
     }
 
     /// The corners of a polygon in the map's frame, which is waited for.
@@ -186,11 +186,10 @@ impl MapFrame {
         if points.is_empty() {
             return Ok(Vec::new());
         }
-        self.node.wait_until(FRAME_WITHIN, || !lock(&self.name).is_empty());
-        let map = lock(&self.name).clone();
-        if map.is_empty() {
+        self.node.wait_until(FRAME_WITHIN, || self.maps.newest().is_some());
+        let Some(map) = self.maps.newest().map(|map| map.frame) else {
             return Err("the corners of the region: no map has come that could tell its frame".to_owned());
-        }
+        };
         let (frame, stamp_s) = (&region.header.frame_id, convert::seconds(&region.header.stamp));
         let mut corners = Err(String::new());
         self.node.wait_until(TRANSFORM_WITHIN, || {

@@ -8,6 +8,7 @@ use crate::geometry::{Point, Polygon, PolygonError};
 use crate::ros::bell::Bell;
 use crate::ros::convert::seconds;
 use crate::ros::display::{AreaMarkers, ShownAreas};
+use crate::ros::map_feed::MapReader;
 use crate::ros::msg::geometry_msgs::{PointStamped, PolygonStamped};
 use crate::ros::msg::std_msgs::Header;
 use crate::ros::msg::visualization_msgs::MarkerArray;
@@ -72,7 +73,7 @@ struct Drawn {
 struct Shared {
     node: Node,
     transforms: Arc<Transforms>,
-    map_frame: Arc<Mutex<String>>,
+    maps: MapReader,
     bell: Arc<Bell>,
     markers: Option<Publisher<MarkerArray>>,
     drawn: Mutex<Drawn>,
@@ -105,7 +106,7 @@ impl AreaInputs {
         let shared = Arc::new(Shared {
             node: node.clone(),
             transforms: Arc::clone(&connected.transforms),
-            map_frame: Arc::clone(&connected.map_frame),
+            maps: connected.maps.clone(),
             bell: Arc::clone(&connected.bell),
             markers,
             drawn: Mutex::new(drawn),
@@ -138,6 +139,12 @@ impl AreaInputs {
         self.shared.try_again();
         let mut drawn = self.shared.lock();
         std::mem::take(&mut drawn.is_new).then(|| drawn.areas.clone())
+    }
+
+    /// Other areas, as if they had been asked for.
+    pub fn exchange(&self, areas: Areas) {
+        let mut drawn = self.shared.lock();
+        (drawn.areas, drawn.is_new) = (areas, true);
     }
 
     /// The areas as they are.
@@ -184,8 +191,9 @@ impl Shared {
         self.drawn.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// The frame of the map; nothing before the first one.
     fn map_frame(&self) -> String {
-        self.map_frame.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.maps.newest().map_or_else(String::new, |map| map.frame)
     }
 
     fn take(&self, wish: Wish, header: &Header, points: Vec<Point3<f64>>) {

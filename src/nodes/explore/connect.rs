@@ -3,6 +3,7 @@
 use super::settings::{ExploreNodeError, Settings};
 use crate::config::{Drive, TurnBy};
 use crate::frontier::DetectorKind;
+use crate::grid::MapMemory;
 use crate::ros::Node;
 use crate::ros::bell::Bell;
 use crate::ros::map_feed::{MapFeed, MapReader};
@@ -37,12 +38,20 @@ pub struct Connected {
 }
 
 /// Connects to the robot that the settings describe.
-pub fn connect(node: &Node, settings: &Settings) -> Result<(RosRobot, Connected), ExploreNodeError> {
+/// The map of an earlier session lies below those that come.
+pub fn connect(
+    node: &Node,
+    settings: &Settings,
+    earlier: Option<MapMemory>,
+) -> Result<(RosRobot, Connected), ExploreNodeError> {
     let Settings { params, preset, robot } = settings;
     let (explorer, navigation) = (&preset.explorer, &preset.navigation);
     let bell = Arc::<Bell>::default();
     let transforms = Arc::new(Transforms::listen(node));
     let map = MapFeed::listen(node, &params.map_topic, &params.map_updates_topic, &bell);
+    if let Some(earlier) = earlier {
+        map.remember(earlier);
+    }
     let drives_itself = navigation.drive == Drive::Internal;
     let costmap = costmap_feed(node, settings, &bell);
     let needs_scans = drives_itself || params.back_off || explorer.detector.name == DetectorKind::Fast;

@@ -2,40 +2,42 @@
 
 mod action;
 mod areas;
+mod attended;
 mod connect;
 mod controls;
 mod desk;
 mod explain;
+mod exploration;
 mod operator;
 mod outputs;
 mod rules;
 mod saving;
+mod session;
 mod settings;
 mod watcher;
 
 pub use settings::ExploreNodeError;
 
-use crate::config::{BUILTIN_ROBOTS, Drive, Preset};
-use crate::explore::{End, Explorer, run as explore};
-use crate::geometry::Pose;
-use crate::planning::GlobalPlanner;
-use crate::ros::display::status_sentence;
-use crate::ros::move_base::AskingPlanner;
+use crate::config::{BUILTIN_ROBOTS, Preset};
 use crate::ros::program::{has_helped, run_program};
 use crate::ros::rivals::Rivals;
-use crate::ros::{Node, RosRobot, stop};
+use crate::ros::{Node, stop};
 use action::ExploreAction;
 use areas::AreaInputs;
-use connect::{Connected, connect};
+use attended::Recall;
+use connect::connect;
 use controls::Controls;
 use desk::Desk;
+use exploration::{Beginning, Exploration};
 use operator::{Matter, Next, Operator};
 use outputs::Outputs;
 use rules::Stage;
 use saving::MapSaver;
+use session::{Activity, Resumed, SessionKeeper};
 use settings::Settings;
 use std::sync::Arc;
-use watcher::{Attended, NodeWatcher};
+use std::sync::atomic::Ordering;
+use watcher::NodeWatcher;
 
 /// Runs the node until it is told to stop, or, with `~exit_when_done`, until the
 /// exploration has ended. Returns the exit code: 0 done, 1 failed or the map was not saved,
@@ -81,8 +83,12 @@ pub fn explore_with(node: &Node) -> Result<u8, ExploreNodeError> {
 fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeError> {
     let settings = Settings::read(node)?;
     let before = refuse_rivals(node, &settings)?;
-    let (mut robot, mut connected) = connect(node, &settings)?;
     let Settings { params, preset, .. } = &settings;
+    let (session, earlier_map) = match Resumed::read(node, &params.resume_from, preset.explorer.thresholds)? {
+        Some(resumed) => (Some(resumed.session), resumed.map),
+        None => (None, None),
+    };
+    let (mut robot, mut connected) = connect(node, &settings, earlier_map)?;
     let saver = Arc::new(MapSaver::new(&params.map_file, connected.maps.clone(), node.log(), &connected.troubles));
     saver.check();
     let outputs = Outputs::offer(node, &settings, &connected, &saver)?;
@@ -91,6 +97,8 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     let _controls = Controls::listen(node, &settings, &connected, &desk)?;
     let areas = AreaInputs::listen(node, &settings, &connected)?;
     let mut operator = Operator::new(node, desk, &connected, action);
+    let mut keeper = SessionKeeper::new(&params.session_file, connected.maps.clone(), node.log(), &connected.troubles);
+    let mut recall = Recall::new(connected.maps.clone(), node.log().clone(), preset.explorer.areas());
     let (cancel, last_saver) = (std::mem::replace(&mut connected.cancel, Box::new(|| ())), Arc::clone(&saver));
     stop::set_will(move || {
         cancel();
@@ -105,12 +113,24 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
         params.map_topic,
         if connected.drives_itself { "our own controller" } else { &params.move_base }
     ));
-    if params.autostart {
+    let activity = session.as_ref().map(|session| session.activity);
+    if let Some(session) = session.as_ref().filter(|session| !session.areas.are_everywhere()) {
+        areas.exchange(session.areas.clone());
+    }
+    if activity == Some(Activity::Stopped) {
+        outputs.show_idle();
+        node.log().warn("the session was stopped by its user: call ~start to go on");
+    } else if params.autostart {
         operator.begin();
+        if activity == Some(Activity::Paused) {
+            connected.paused.store(true, Ordering::Relaxed);
+            node.log().warn("the session was paused: call ~resume to go on");
+        }
     } else {
         outputs.show_idle();
         node.log().info("waiting to be started: call ~start, or send a goal to the action ~explore");
     }
+    let mut session = session;
     let mut last: Option<Exploration<'_>> = None;
     loop {
         let Some(next) = wait_for_work(node, &mut operator, last.as_mut(), &outputs, &areas) else {
@@ -128,11 +148,11 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
                 let home = earlier.and_then(|earlier| earlier.explorer.start_pose());
                 let begin =
                     Beginning { node, settings: &settings, connected: &connected, outputs: &outputs, inputs: &areas };
-                begin.explore(&robot, &operator, home)?
+                begin.explore(&robot, &operator, home, session.take().as_ref())?
             }
         };
         let exploration = last.insert(exploration);
-        let end = exploration.run(node, &mut robot, &mut operator);
+        let end = exploration.run(node, &mut robot, &mut operator, &mut keeper, &mut recall);
         let saved = match operator.order().filter(|order| !order.map_file.is_empty()) {
             Some(order) => saver.save_elsewhere(&order.map_file).map(Some),
             None => saver.save(),
@@ -179,90 +199,9 @@ fn wait_for_work(
     })
 }
 
-/// One exploration, from the first map to its end, and to the way back.
-struct Exploration<'a> {
-    explorer: Explorer,
-    watcher: NodeWatcher<'a>,
-}
-
-/// What an exploration begins with.
-struct Beginning<'a> {
-    node: &'a Node,
-    settings: &'a Settings,
-    connected: &'a Connected,
-    outputs: &'a Outputs,
-    inputs: &'a AreaInputs,
-}
-
-impl<'a> Beginning<'a> {
-    /// A new exploration, as the operator wants it now.
-    fn explore(
-        self,
-        robot: &RosRobot,
-        operator: &Operator,
-        home: Option<Pose>,
-    ) -> Result<Exploration<'a>, ExploreNodeError> {
-        let Self { node, settings, connected, outputs, inputs } = self;
-        let Settings { preset, robot: body, .. } = settings;
-        let mut wanted = preset.explorer.clone();
-        if let Some(order) = operator.order() {
-            wanted.patience.time_limit_s = order.time_limit_s.or(wanted.patience.time_limit_s);
-            wanted.return_to_start |= order.return_home;
-        }
-        let mut explorer = Explorer::new(wanted, &body.traits())?;
-        let areas = operator.areas(inputs.current());
-        robot.set_areas(&areas);
-        let watcher = NodeWatcher::new(node, outputs, inputs, &areas, preset.explorer.thresholds);
-        explorer.set_areas(areas);
-        if let Some(home) = home {
-            explorer.set_start_pose(home);
-        }
-        if let Some(planner) = asking_planner(node, settings, connected) {
-            explorer.set_planner(planner);
-        }
-        Ok(Exploration { explorer, watcher })
-    }
-}
-
-impl Exploration<'_> {
-    /// Explores, or goes on with it.
-    fn run(&mut self, node: &Node, robot: &mut RosRobot, operator: &mut Operator) -> End {
-        let Self { explorer, watcher } = self;
-        watcher.begin(explorer);
-        let end = explore(robot, explorer, &mut Attended { operator, watcher });
-        robot.stop();
-        let status = watcher.finish(robot, explorer, &end);
-        node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
-        tell_latency(node, robot.latencies_ms());
-        end
-    }
-}
-
-/// The planner that asks move_base, where the settings want it.
-fn asking_planner(node: &Node, settings: &Settings, connected: &Connected) -> Option<Box<dyn GlobalPlanner>> {
-    let Settings { params, preset, robot } = settings;
-    let wanted = params.check_with_make_plan && preset.navigation.drive == Drive::MoveBase;
-    wanted.then(|| {
-        let own = preset.explorer.planner.build(&robot.body());
-        Box::new(AskingPlanner::new(node, &params.move_base, Arc::clone(&connected.map_frame), own)) as Box<_>
-    })
-}
-
 /// Refuses to drive a robot that another explorer drives; returns who was there.
 fn refuse_rivals<'a>(node: &'a Node, settings: &Settings) -> Result<Rivals<'a>, ExploreNodeError> {
     let rivals = Rivals::of(node, &format!("{}/goal", settings.params.move_base));
     rivals.refuse_all()?;
     Ok(rivals)
-}
-
-/// Says how long it took from maps to the goals that they led to.
-fn tell_latency(node: &Node, latencies_ms: &[f64]) {
-    let mut sorted = latencies_ms.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    if let (Some(median_ms), Some(worst_ms)) = (sorted.get(sorted.len() / 2), sorted.last()) {
-        let count = sorted.len();
-        node.log().info(format_args!(
-            "from a map to the goal that it led to: median {median_ms:.1} ms, worst {worst_ms:.1} ms, {count} goals"
-        ));
-    }
 }

@@ -96,6 +96,11 @@ impl Operator {
         }
     }
 
+    /// Whether the exploration rests.
+    pub fn is_paused(&self) -> bool {
+        self.paused.load(Ordering::Relaxed)
+    }
+
     /// Whether there is something to do next.
     pub const fn has_work(&self) -> bool {
         self.next.is_some()
@@ -109,7 +114,6 @@ impl Operator {
             self.has_work()
         });
         let next = self.next.take()?;
-        self.paused.store(false, Ordering::Relaxed);
         if let Next::Order(order) = &next {
             self.action.accept(order);
             (self.order, self.order_is_over) = (Some(order.clone()), false);
@@ -125,7 +129,7 @@ impl Operator {
         for pending in self.desk.take() {
             match pending.request.clone() {
                 Request::Control(control) => {
-                    let rule = rule(control, matter.stage, self.paused.load(Ordering::Relaxed));
+                    let rule = rule(control, matter.stage, self.is_paused());
                     self.control(pending, rule, matter);
                 }
                 Request::Order(order) => self.take_order(order, matter),

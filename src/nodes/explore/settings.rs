@@ -31,6 +31,14 @@ pub enum ExploreNodeError {
         /// What is wrong.
         source: SettingsFileError,
     },
+    /// A session that cannot be gone on with.
+    #[error("parameter ~resume_from: {file}: {why}")]
+    Session {
+        /// The file.
+        file: String,
+        /// What is wrong with it.
+        why: String,
+    },
     /// Another explorer drives the robot.
     #[error(transparent)]
     Rival(#[from] RivalError),

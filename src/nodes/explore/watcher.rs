@@ -3,10 +3,9 @@
 
 use super::areas::AreaInputs;
 use super::explain::explain;
-use super::operator::{Matter, Operator};
 use super::outputs::Outputs;
-use super::rules::Stage;
-use crate::explore::{Areas, Counts, Decision, DecisionRecord, End, Explorer, Phase, Watcher};
+use super::session::{Activity, Session};
+use crate::explore::{Areas, Counts, Decision, DecisionRecord, End, Explorer, Phase};
 use crate::geometry::Pose;
 use crate::grid::{AreaCensus, Thresholds};
 use crate::robot::{Observation, Robot};
@@ -24,6 +23,10 @@ pub struct NodeWatcher<'a> {
     outputs: &'a Outputs,
     inputs: &'a AreaInputs,
     began_s: Option<f64>,
+    /// What earlier sessions took, seconds.
+    earlier_s: f64,
+    /// The goals that they sent.
+    earlier_goals: usize,
     now_s: f64,
     last_pose: Option<Pose>,
     distance_m: f64,
@@ -57,6 +60,8 @@ impl<'a> NodeWatcher<'a> {
             outputs,
             inputs,
             began_s: None,
+            earlier_s: 0.0,
+            earlier_goals: 0,
             now_s: 0.0,
             last_pose: None,
             distance_m: 0.0,
@@ -71,6 +76,35 @@ impl<'a> NodeWatcher<'a> {
             last: None,
             goals_sent: 0,
         }
+    }
+
+    /// Goes on from what an earlier session drove.
+    pub const fn go_on_from(&mut self, session: &Session) {
+        (self.earlier_s, self.distance_m) = (session.elapsed_s, session.distance_m);
+        self.earlier_goals = session.memory.counts.goals_sent;
+    }
+
+    /// Other areas are to be kept to.
+    pub fn exchange_areas(&self, areas: Areas) {
+        self.inputs.exchange(areas);
+    }
+
+    /// What is to be written down of the exploration.
+    pub fn session(&self, explorer: &Explorer, activity: Activity) -> Session {
+        Session {
+            activity,
+            preset: self.outputs.preset.clone(),
+            map_frame: self.frame.clone(),
+            elapsed_s: self.elapsed_s(),
+            distance_m: self.distance_m,
+            memory: explorer.memory(),
+            areas: explorer.areas(),
+            ..Session::default()
+        }
+    }
+
+    fn elapsed_s(&self) -> f64 {
+        self.earlier_s + self.began_s.map_or(0.0, |began_s| self.now_s - began_s)
     }
 
     /// The time of the exploration, seconds.
@@ -108,13 +142,13 @@ impl<'a> NodeWatcher<'a> {
             preset: &self.outputs.preset,
             message: &self.message,
             end,
-            elapsed_s: self.began_s.map_or(0.0, |began_s| self.now_s - began_s),
+            elapsed_s: self.elapsed_s(),
             distance_m: self.distance_m,
             known_area_m2: self.known_area_m2,
             free_area_m2: self.free_area_m2,
             frontiers: self.frontiers,
             // The explorer counts what it chose, also where nobody was there to drive.
-            counts: &Counts { goals_sent: counts.goals_sent.min(self.goals_sent), ..*counts },
+            counts: &Counts { goals_sent: counts.goals_sent.min(self.earlier_goals + self.goals_sent), ..*counts },
             time_spent: explorer.time_spent(),
             map_age_s: f64::NAN,
         })
@@ -158,40 +192,9 @@ const fn phase_sentence(phase: Phase) -> Option<&'static str> {
     }
 }
 
-/// A run of an exploration: what is asked for is done, and what happens is shown.
-pub struct Attended<'a, 'b> {
-    /// Does what is asked for.
-    pub operator: &'a mut Operator,
-    /// Shows what happens.
-    pub watcher: &'a mut NodeWatcher<'b>,
-}
-
-impl Watcher<RosRobot> for Attended<'_, '_> {
-    fn before_step(&mut self, robot: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
-        let Self { operator, watcher } = self;
-        let stage = match () {
-            () if explorer.is_returning() => Stage::Returning,
-            () if robot.has_begun() => Stage::Exploring,
-            () => Stage::Waiting,
-        };
-        let explain = || watcher.explanation();
-        let now_s = observation.stamp_s;
-        operator.serve(&mut Matter { stage, explorer: Some(explorer), now_s, explain: &explain });
-        watcher.look(robot, explorer, now_s);
-    }
-
-    fn after_step(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
-        self.watcher.show(robot, explorer, observation, decision);
-    }
-
-    fn stop_requested(&self) -> Option<String> {
-        self.operator.stop_requested()
-    }
-}
-
 impl NodeWatcher<'_> {
     /// Looks on before a step, or where none is made.
-    fn look(&mut self, robot: &RosRobot, explorer: &mut Explorer, now_s: f64) {
+    pub fn look(&mut self, robot: &RosRobot, explorer: &mut Explorer, now_s: f64) {
         if robot.is_ready() {
             self.now_s = now_s;
             self.began_s.get_or_insert(now_s);
@@ -210,7 +213,7 @@ impl NodeWatcher<'_> {
     }
 
     /// Shows a step.
-    fn show(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
+    pub fn show(&mut self, robot: &RosRobot, explorer: &Explorer, observation: &Observation, decision: &Decision) {
         self.count_way(observation);
         self.count_area(robot);
         self.goals_sent = robot.goals_sent();
