@@ -89,7 +89,7 @@ fn finding(node: &str, count: usize, wrong: &[Wrong]) -> Finding {
             },
         );
     }
-    let what = wrong.iter().map(|wrong| wrong.text.as_str()).collect::<Vec<_>>().join("; ");
+    let what = wrong.iter().map(|wrong| shortened(&wrong.text)).collect::<Vec<_>>().join("; ");
     let removals: Vec<String> =
         wrong.iter().filter_map(|wrong| Some(format!("`{}`", wrong.removal.as_ref()?))).collect();
     let remedy = if removals.is_empty() {
@@ -98,6 +98,14 @@ fn finding(node: &str, count: usize, wrong: &[Wrong]) -> Finding {
         format!("{}, and correct the launch file: a wrong name stays on the parameter server", removals.join(", "))
     };
     Finding::error(CHECK, what, remedy)
+}
+
+/// Where the nearest name is told, the long list of all is left out.
+fn shortened(text: &str) -> String {
+    match (text.split_once(", expected "), text.split_once(" (did you mean ")) {
+        (Some((wrong, _)), Some((_, hint))) => format!("{wrong} (did you mean {hint}"),
+        _ => text.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -124,8 +132,7 @@ mod tests {
         let read = check(json!({"base_frme": "base", "map_topic": "/map2"}));
         assert_eq!((read.finding.level, read.params.map_topic.as_str()), (Error, "/map2"), "the others are read");
         let what = &read.finding.what;
-        assert!(what.starts_with("parameter ~base_frme: unknown field `base_frme`"), "{what}");
-        assert!(what.ends_with("(did you mean base_frame?)"), "{what}");
+        assert_eq!(what, "parameter ~base_frme: unknown field `base_frme` (did you mean base_frame?)");
         assert!(read.finding.remedy.unwrap().starts_with("`rosparam delete /explore/base_frme`, and correct"));
     }
 
