@@ -127,6 +127,8 @@ pub struct NodeParams {
     /// Where the session is kept, a JSON file: what is needed to go on after a crash; not at all
     /// when empty. Its map lies beside it.
     pub session_file: String,
+    /// From one time that the session is written to the next, seconds of real time.
+    pub session_period: f64,
     /// Go on from this session, where its file is there.
     pub resume_from: String,
     /// Leave when the exploration has ended.
@@ -181,6 +183,7 @@ impl Default for NodeParams {
             yield_to_others: 300.0,
             map_file: String::new(),
             session_file: String::new(),
+            session_period: 30.0,
             resume_from: String::new(),
             exit_when_done: false,
             visualize: true,
@@ -226,6 +229,8 @@ impl NodeParams {
         let frequency = self.planner_frequency.unwrap_or(1.0);
         OutOfRange::unless_not_negative("planner_frequency", frequency)?;
         OutOfRange::unless_not_negative("yield_to_others", self.yield_to_others)?;
+        let period = self.session_period;
+        OutOfRange::unless((0.1..=3600.0).contains(&period), "session_period", period, "within 0.1 to 3600 s")?;
         OutOfRange::unless_positive("progress_timeout", self.progress_timeout.unwrap_or(1.0))?;
         for (name, text) in
             [("map_topic", &self.map_topic), ("base_frame", &self.base_frame), ("move_base", &self.move_base)]

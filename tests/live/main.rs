@@ -12,6 +12,7 @@ mod peers;
 mod relay;
 mod rig;
 mod senses;
+mod session;
 
 use frontier_explorer::geometry::{Footprint, Pose};
 use frontier_explorer::io::load_map;
@@ -82,7 +83,7 @@ fn main() {
 
 fn all() -> impl Iterator<Item = &'static Test> {
     let own = TESTS.iter().chain(areas::TESTS).chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
-    own.chain(doctor::TESTS).chain(ctl::TESTS)
+    own.chain(session::TESTS).chain(doctor::TESTS).chain(ctl::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {

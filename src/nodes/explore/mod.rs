@@ -97,7 +97,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     let _controls = Controls::listen(node, &settings, &connected, &desk)?;
     let areas = AreaInputs::listen(node, &settings, &connected)?;
     let mut operator = Operator::new(node, desk, &connected, action);
-    let mut keeper = SessionKeeper::new(&params.session_file, connected.maps.clone(), node.log(), &connected.troubles);
+    let mut keeper = SessionKeeper::new(params, connected.maps.clone(), node.log(), &connected.troubles);
     let mut recall = Recall::new(connected.maps.clone(), node.log().clone(), preset.explorer.areas());
     let (cancel, last_saver) = (std::mem::replace(&mut connected.cancel, Box::new(|| ())), Arc::clone(&saver));
     stop::set_will(move || {

@@ -1,6 +1,7 @@
 //! The session on disk: what is needed to go on after a crash, or on another day.
 
 use super::settings::ExploreNodeError;
+use crate::config::NodeParams;
 use crate::explore::{Areas, Memory};
 use crate::grid::{MapMemory, Thresholds};
 use crate::io::{SaveOptions, clear_stale, load_map, read_if_there, save_map, write_atomic};
@@ -13,8 +14,6 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Sender, channel};
 use std::time::{Duration, Instant};
 
-/// From one time that the session is written to the next, real time.
-const PERIOD: Duration = Duration::from_secs(30);
 /// How long the last one may take to be written, at an end.
 const WRITE_WITHIN: Duration = Duration::from_secs(10);
 /// The first word of the file, with the version of what follows.
@@ -128,16 +127,19 @@ type Job = (Session, Option<Sender<()>>);
 /// Writes the session, on a thread of its own.
 pub struct SessionKeeper {
     writer: Option<Sender<Job>>,
+    /// From one time that it is written to the next, real time.
+    period: Duration,
     next: Instant,
 }
 
 impl SessionKeeper {
     /// A keeper of `~session_file`; without a name it keeps nothing. What a killed process left
     /// half written is cleared.
-    pub fn new(file: &str, maps: MapReader, log: &Log, troubles: &Troubles) -> Self {
-        let next = Instant::now() + PERIOD;
+    pub fn new(params: &NodeParams, maps: MapReader, log: &Log, troubles: &Troubles) -> Self {
+        let (file, period) = (&params.session_file, Duration::from_secs_f64(params.session_period));
+        let next = Instant::now() + period;
         if file.is_empty() {
-            return Self { writer: None, next };
+            return Self { writer: None, period, next };
         }
         let (file, stem) = (PathBuf::from(file), map_stem(Path::new(file)));
         let stale: usize = [&file, &stem.with_extension("yaml"), &stem.with_extension("pgm")]
@@ -164,13 +166,13 @@ impl SessionKeeper {
                 }
             }
         });
-        Self { writer: Some(sender), next }
+        Self { writer: Some(sender), period, next }
     }
 
     /// Writes the session when it is time.
     pub fn keep(&mut self, session: impl FnOnce() -> Session) {
         let Some(writer) = self.writer.as_ref().filter(|_| Instant::now() >= self.next) else { return };
-        self.next = Instant::now() + PERIOD;
+        self.next = Instant::now() + self.period;
         // A thread that has ended writes no more: nothing can be done about it here.
         let _ = writer.send((session(), None));
     }
@@ -178,7 +180,7 @@ impl SessionKeeper {
     /// Writes the session now, and waits for it.
     pub fn keep_now(&mut self, session: Session) {
         let Some(writer) = &self.writer else { return };
-        self.next = Instant::now() + PERIOD;
+        self.next = Instant::now() + self.period;
         let (sender, done) = channel();
         if writer.send((session, Some(sender))).is_ok() {
             let _ = done.recv_timeout(WRITE_WITHIN);
