@@ -222,7 +222,7 @@ impl Shared {
         let placed = self.transforms.place(map, frame, asked.stamp_s);
         let placed = placed.map_err(|error| {
             let name = asked.wish.name();
-            format!("{name}: they are in the frame {frame} and cannot be brought to the map's frame {map}: {error}")
+            format!("{name} cannot be brought from the frame {frame} to the map's frame {map}: {error}")
         })?;
         Ok(asked.points.iter().map(|point| flat(placed * point)).collect())
     }
