@@ -87,8 +87,9 @@ fn a_robot_outside_its_region_gets_in_and_says_so_once() {
 fn a_region_to_which_no_way_is_known_is_not_explored() {
     let mut robot = Teleporter::new("#########\n#...#...#\n#########", 1.5, 1.5);
     let beyond = Areas { region: Some(area((5.0, 8.0), (0.0, 3.0))), no_go: Vec::new() };
-    let (end, _) = explore(&mut robot, &mut explorer(&beyond));
-    assert_eq!(end.reason, EndReason::AllUnreachable);
+    let mut explorer = explorer(&beyond);
+    let (end, _) = explore(&mut robot, &mut explorer);
+    assert_eq!((end.reason, explorer.counts().recoveries), (EndReason::AllUnreachable, 2));
     assert!(end.message.contains("no known way leads in"), "{}", end.message);
 }
 
