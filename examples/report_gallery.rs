@@ -46,6 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         end_in_map: last.pose_in_map,
         goals: &run.goals,
         region: None,
+        no_go: &[],
         theme: Theme::Clear,
     }
     .to_png()?;
@@ -66,6 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             frontiers: &frontiers,
             robot_in_map: middle.pose_in_map,
             region: None,
+            no_go: &[],
             theme,
         };
         std::fs::write(directory.join(format!("overlay-{}.png", theme.name())), overlay.to_png()?)?;

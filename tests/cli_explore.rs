@@ -71,6 +71,25 @@ fn a_world_goes_in_and_its_map_comes_out() {
     assert!(!html.contains("src=\"http") && !html.contains("href=\"http"), "the report needs nothing beside it");
 }
 
+/// The robot keeps to the first room and to the western end of the second.
+#[test]
+fn areas_in_a_preset_hold_the_robot() {
+    let folder = tempfile::tempdir().unwrap();
+    let (world, out, preset) = (rooms(folder.path()), folder.path().join("out"), folder.path().join("areas.yaml"));
+    let areas = "preset: areas\nexplorer:\n  region: [[-1, -1], [5.4, -1], [5.4, 2.4], [-1, 2.4]]\n  no_go: [[[4.0, -1], \
+                 [5.0, -1], [5.0, 2.4], [4.0, 2.4]]]\n";
+    std::fs::write(&preset, areas).unwrap();
+    explore(&world, &out, &["--config", preset.to_str().unwrap()]).success();
+    let run = run_json(&out);
+    assert_eq!(run["end_reason"], "outside_region", "{}", run["end_message"]);
+    assert!(run["end_message"].as_str().unwrap().contains("no-go areas"), "{}", run["end_message"]);
+    let decisions = run["decisions"].as_array().unwrap();
+    let x = |place: &Value| place["x"].as_f64();
+    assert!(decisions.iter().filter_map(|d| x(&d["goal"])).all(|x| x < 4.0), "{decisions:?}");
+    assert!(decisions.iter().filter_map(|d| x(&d["pose"])).all(|x| x < 4.0));
+    assert!(x(&decisions[decisions.len() - 1]["pose"]).unwrap() > 2.0, "it entered the second room");
+}
+
 #[test]
 fn the_same_seed_gives_the_same_bytes_but_for_wall() {
     let folder = tempfile::tempdir().unwrap();

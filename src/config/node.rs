@@ -203,7 +203,7 @@ impl Default for NodeParams {
 
 impl NodeParams {
     /// Reads a tree of parameters. explore_lite's names of topics and frames take the
-    /// place of ours; `region` may be empty for none.
+    /// place of ours; `region` and `no_go` may be empty for those of the preset.
     ///
     /// # Errors
     /// [`NodeParamsError`] with the parameter, its value and what is allowed.
@@ -218,6 +218,7 @@ impl NodeParams {
         replace(&mut params.map_topic, &mut params.costmap_topic);
         replace(&mut params.map_updates_topic, &mut params.costmap_updates_topic);
         params.region = params.region.filter(|corners| !corners.is_empty());
+        params.no_go = params.no_go.filter(|areas| !areas.is_empty());
         params.validate()?;
         Ok(params)
     }

@@ -54,6 +54,40 @@ fn no_goal_and_no_way_leaves_the_region() {
     assert_eq!(unknown, 0, "and all of it is explored");
 }
 
+/// The door between the rooms lies outside, the corridor inside.
+#[test]
+fn ways_keep_to_a_region_that_leads_round() {
+    let notched = [[0., 0.], [17., 0.], [17., 9.], [8.1, 9.], [8.1, 3.1], [6.9, 3.1], [6.9, 9.], [0., 9.]];
+    let areas = Areas { region: Some(Polygon::try_from(notched.to_vec()).unwrap()), no_go: Vec::new() };
+    let mut robot = Teleporter::new(HOUSE, 2.5, 4.5);
+    robot.map = robot.world.clone();
+    for index in 0..robot.map.info().len() {
+        let cell = robot.map.info().cell(index);
+        if cell.x > 12 {
+            robot.map.set(cell, OccupancyGrid::UNKNOWN);
+        }
+    }
+    let (end, goals) = explore(&mut robot, &mut explorer(&areas));
+    assert_eq!(end.reason, EndReason::Complete, "{}", end.message);
+    let ways: Vec<Pose> = goals.iter().flat_map(|(_, path)| path.poses.clone()).collect();
+    assert!(ways.iter().all(|pose| areas.contain(pose.position())), "{ways:?}");
+    assert!(ways.iter().any(|pose| pose.x > 9.0), "{ways:?}");
+}
+
+#[test]
+fn a_frontier_that_crosses_the_rim_counts_by_its_inside() {
+    let hall = format!("{}\n{}", "?".repeat(15), format!("{}\n", ".".repeat(15)).repeat(4));
+    let mut robot = Teleporter::new(hall.trim_end(), 2.5, 1.5);
+    robot.map = robot.world.clone();
+    let areas = Areas { region: Some(area((-1.0, 6.0), (-1.0, 9.0))), no_go: Vec::new() };
+    let mut explorer = explorer(&areas);
+    let record = (0..5).find_map(|_| explorer.step(&robot.observation()).record).unwrap();
+    let of = |status: CandidateStatus| record.candidates.iter().find(|c| c.status == status);
+    let (chosen, outside) = (of(CandidateStatus::Chosen).unwrap(), of(CandidateStatus::OutsideRegion).unwrap());
+    assert_eq!((chosen.size_cells, outside.size_cells), (6, 9));
+    assert!(chosen.target.x < 6.0 && record.goal.unwrap().x < 6.0);
+}
+
 #[test]
 fn a_robot_outside_its_region_gets_in_and_says_so_once() {
     let mut robot = Teleporter::new(HOUSE, 10.5, 4.5);
@@ -64,7 +98,9 @@ fn a_robot_outside_its_region_gets_in_and_says_so_once() {
             robot.map.set(cell, OccupancyGrid::UNKNOWN);
         }
     }
+    robot.stride_m = Some(0.5);
     let mut explorer = explorer(&left_room());
+    explorer.settings.goal.reconsider_period_s = Some(1.0);
     let mut notices = Vec::new();
     for _ in 0..200 {
         let decision = explorer.step(&robot.observation());
@@ -87,8 +123,9 @@ fn a_robot_outside_its_region_gets_in_and_says_so_once() {
 fn a_region_to_which_no_way_is_known_is_not_explored() {
     let mut robot = Teleporter::new("#########\n#...#...#\n#########", 1.5, 1.5);
     let beyond = Areas { region: Some(area((5.0, 8.0), (0.0, 3.0))), no_go: Vec::new() };
-    let (end, _) = explore(&mut robot, &mut explorer(&beyond));
-    assert_eq!(end.reason, EndReason::AllUnreachable);
+    let mut explorer = explorer(&beyond);
+    let (end, _) = explore(&mut robot, &mut explorer);
+    assert_eq!((end.reason, explorer.counts().recoveries), (EndReason::AllUnreachable, 2));
     assert!(end.message.contains("no known way leads in"), "{}", end.message);
 }
 

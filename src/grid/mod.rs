@@ -21,8 +21,7 @@ mod rect;
 mod state;
 mod vertical;
 
-pub use area_cells::AreaCells;
-pub(crate) use area_cells::AreaCensus;
+pub use area_cells::{AreaCells, AreaCensus};
 pub use census::Census;
 pub(crate) use census::LiveCensus;
 pub use changes::Changes;

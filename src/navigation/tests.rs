@@ -146,3 +146,30 @@ fn holding_is_idle() {
     let (twist, navigation) = navigator.update(&input);
     assert_eq!((twist, navigation.state), (Twist::ZERO, NavigationState::Idle));
 }
+
+#[test]
+fn areas_that_come_on_the_way_are_driven_round() {
+    let goal = Pose::new(8.0, 5.0, 0.0);
+    let corners = vec![[4.0, 2.0], [6.0, 2.0], [6.0, 7.0], [4.0, 7.0]];
+    let areas = Areas { region: None, no_go: vec![crate::geometry::Polygon::try_from(corners).unwrap()] };
+    let mut navigator = navigator();
+    navigator.command(&Command::Drive { id: 1, goal_in_map: goal });
+    let (mut pose, mut twist, open) = (Pose::new(1.0, 5.0, 0.0), Twist::ZERO, costmap(|_| false));
+    for tick in 0..600 {
+        if tick == 20 {
+            navigator.set_areas(areas.clone());
+        }
+        let stamp_s = f64::from(tick) * 0.1;
+        let input =
+            NavigationInput { stamp_s, pose_in_map: pose, twist, costmap: &open, costmap_stamp_s: 0.0, scan: None };
+        let (wanted, navigation) = navigator.update(&input);
+        if navigation.state != NavigationState::Active {
+            assert_eq!(navigation.state, NavigationState::Succeeded);
+            return;
+        }
+        twist = LIMITS.reachable(&twist, &wanted, 0.1);
+        pose = twist.advance(&pose, 0.1);
+        assert!(areas.contain(pose.position()), "{pose:?}");
+    }
+    panic!("it did not arrive");
+}

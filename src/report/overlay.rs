@@ -31,6 +31,8 @@ pub struct Overlay<'a> {
     pub robot_in_map: Option<Pose>,
     /// The region to explore, if there is one.
     pub region: Option<&'a Polygon>,
+    /// The areas that are not entered.
+    pub no_go: &'a [Polygon],
     /// Colours.
     pub theme: Theme,
 }
@@ -52,6 +54,9 @@ impl Overlay<'_> {
         }
         if let Some(region) = self.region {
             canvas.outline(region, canvas.view().mark_px() * 0.7, Ink::Region);
+        }
+        for area in self.no_go {
+            canvas.outline(area, canvas.view().mark_px() * 0.7, Ink::Taboo);
         }
         if let Some(pose) = &self.robot_in_map {
             canvas.robot(pose);
@@ -94,6 +99,7 @@ mod tests {
             frontiers: &frontiers,
             robot_in_map: None,
             region: None,
+            no_go: &[],
             theme: Theme::Clear,
         };
         let canvas = overlay.draw();

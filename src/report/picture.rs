@@ -33,6 +33,8 @@ pub struct Picture<'a> {
     pub goals: &'a [PictureGoal],
     /// The region to explore, if there was one.
     pub region: Option<&'a Polygon>,
+    /// The areas that are not entered.
+    pub no_go: &'a [Polygon],
     /// Colours.
     pub theme: Theme,
 }
@@ -48,6 +50,9 @@ impl Picture<'_> {
         canvas.draw_grid(self.grid, self.thresholds);
         if let Some(region) = self.region {
             canvas.outline(region, unit * 0.7, Ink::Region);
+        }
+        for area in self.no_go {
+            canvas.outline(area, unit * 0.7, Ink::Taboo);
         }
         canvas.gradient_line(self.trajectory, unit * 0.8);
         for goal in self.goals {
@@ -87,6 +92,7 @@ mod tests {
             end_in_map: None,
             goals: &[PictureGoal { point_in_map: Point::new(5.5, 1.5), failed: true }],
             region: None,
+            no_go: &[Polygon::try_from(vec![[3.0, 1.0], [4.0, 1.0], [4.0, 3.0]]).unwrap()],
             theme: Theme::Clear,
         };
         let canvas = picture.draw();
@@ -94,6 +100,7 @@ mod tests {
         assert_eq!(at(6.5, 2.5), Some(Ink::along(1.0)));
         assert_eq!(at(5.5, 1.5), Some(Ink::Taboo.index()));
         assert_eq!(at(1.5, 1.5), Some(Ink::Halo.index()));
+        assert_eq!(at(4.0, 2.5), Some(Ink::Taboo.index()), "the side of a no-go area");
         assert_eq!(picture.to_png().unwrap(), picture.to_png().unwrap());
     }
 }

@@ -50,6 +50,7 @@ impl MapDetection<'_> {
             frontiers: &shown.collect::<Vec<_>>(),
             robot_in_map: Some(self.robot_in_map),
             region: self.settings.region.as_ref(),
+            no_go: &self.settings.no_go,
             theme,
         };
         overlay.to_png()

@@ -47,7 +47,8 @@ fn other_frame(world: &World) {
     // The room has 3.5 x 3.1 m, and its walls are known as well.
     assert!(end.known_area_m2 < 3.7 * 3.5 && end.known_area_m2 > 10.0, "{} m2", end.known_area_m2);
     regions.send(polygon("nowhere", &[(0.0, 0.0), (9.0, 0.0), (9.0, 9.0)])).unwrap();
-    explore.expect_log("they are in the frame nowhere and cannot be brought to the map's frame map", SOON);
+    explore
+        .expect_log("the corners on ~set_region cannot be brought from the frame nowhere to the map's frame map", SOON);
     // Without a region the rest of the house is explored.
     regions.send(polygon("", &[])).unwrap();
     status.expect(DEADLINE, "another end", |m| m.end_reason == "complete" && m.known_area_m2 > 20.0);

@@ -239,7 +239,9 @@ impl Explorer {
         let audit = decided.audit.as_ref();
         let barred = audit.is_some_and(|audit| audit.barred > 0);
         let in_pocket = audit.is_some_and(|audit| audit.in_pocket) && decided.left_behind.unreachable > 0;
-        if decided.left_behind.failed > 0 || barred || in_pocket {
+        // A look round may show a way in.
+        let is_locked_out = audit.is_some_and(|audit| audit.locked_out.is_some());
+        if decided.left_behind.failed > 0 || barred || in_pocket || is_locked_out {
             self.recover(decided, pose, now_s, record);
             return;
         }

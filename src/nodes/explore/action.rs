@@ -196,7 +196,7 @@ impl MapFrame {
             corners = brought(&self.transforms, &map, frame, stamp_s, &points);
             corners.is_ok()
         });
-        corners.map_err(|why| format!("the corners of the region: {why}"))
+        corners.map_err(|why| format!("the corners of the region {why}"))
     }
 }
 

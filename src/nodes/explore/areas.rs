@@ -180,9 +180,9 @@ pub fn brought(
     if frame.is_empty() || frame == frame_name(map) {
         return Ok(points.iter().copied().map(flat).collect());
     }
-    let placed = transforms.place(map, frame, stamp_s).map_err(|error| {
-        format!("they are in the frame {frame} and cannot be brought to the map's frame {map}: {error}")
-    })?;
+    let placed = transforms
+        .place(map, frame, stamp_s)
+        .map_err(|error| format!("cannot be brought from the frame {frame} to the map's frame {map}: {error}"))?;
     Ok(points.iter().map(|point| flat(placed * point)).collect())
 }
 
@@ -236,7 +236,7 @@ impl Shared {
     /// The points in the map's frame; an empty name is taken for it.
     fn to_map(&self, asked: &Asked, map: &str) -> Result<Vec<Point>, String> {
         let Asked { frame, stamp_s, points, .. } = asked;
-        brought(&self.transforms, map, frame, *stamp_s, points).map_err(|why| format!("{}: {why}", asked.wish.name()))
+        brought(&self.transforms, map, frame, *stamp_s, points).map_err(|why| format!("{} {why}", asked.wish.name()))
     }
 
     fn grant(&self, drawn: &mut Drawn, wish: Wish, points: Vec<Point>) {

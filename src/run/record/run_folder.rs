@@ -57,6 +57,7 @@ impl RunFolder {
             end_in_map,
             goals: &trail.goals,
             region: settings.region.as_ref(),
+            no_go: &settings.no_go,
             theme: Theme::Clear,
         };
         let map_png = picture.to_png()?;

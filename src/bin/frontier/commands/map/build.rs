@@ -85,6 +85,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
         end_in_map: last,
         goals: &[],
         region: None,
+        no_go: &[],
         theme: Theme::Clear,
     };
     let png = saved.yaml.with_extension("way.png");
