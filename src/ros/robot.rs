@@ -144,6 +144,11 @@ impl RosRobot {
         self.parts.pilot.set_areas(areas.clone());
     }
 
+    /// Takes the time since the last observation for a rest.
+    pub fn go_on(&mut self) {
+        self.clock.skip_to(self.node.now_s());
+    }
+
     /// Stops the robot: cancels the goal under way and stands still.
     pub fn stop(&mut self) {
         if let Some(move_base) = &mut self.parts.move_base {

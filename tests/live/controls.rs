@@ -129,7 +129,7 @@ fn while_exploring(world: &World) {
     let status = Statuses::of(world);
     let twists = Heard::<Twist>::on(&world.probe, "/cmd_vel");
     let _sim = world.simulate_kindly(SLOWLY);
-    let explore = stays(world, &[]);
+    let explore = stays(world, &["_explorer:={patience: {goal_timeout_s: 20.0}}"]);
     status.until(ExplorationStatus::TURNING, "turning");
     ask(world, "start", true, "it is exploring already");
     ask(world, "pause", true, "paused: the robot stands");
@@ -151,6 +151,8 @@ fn while_exploring(world: &World) {
     ask(world, "pause", false, "nothing to pause: the exploration has ended");
     ask(world, "clear_blacklist", true, "nothing is left alone");
     ask(world, "explain", true, "last decision: ");
+    // The way back has its own time, however long ago the end was.
+    std::thread::sleep(Duration::from_secs(8));
     ask(world, "return_home", true, "the robot drives back to the start at (");
     status.until_it("back", |m| m.phase == ExplorationStatus::ENDED && m.message.contains("back at the start"));
     ask(world, "start", true, "another exploration begins");

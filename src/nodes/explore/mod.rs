@@ -140,6 +140,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
         };
         let exploration = match (next, last.take()) {
             (Next::GoHome, Some(mut earlier)) => {
+                robot.go_on();
                 let now_s = earlier.watcher.now_s();
                 earlier.explorer.return_home(now_s, "sent home by the user");
                 earlier
