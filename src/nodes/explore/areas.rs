@@ -1,6 +1,8 @@
 //! The region and the no-go areas as users set them while the node runs: polygons on topics and
 //! clicks in RViz, in any frame that tf brings to the map's, and the markers that show them.
 
+mod asked;
+
 use super::connect::Connected;
 use super::settings::{ExploreNodeError, Settings};
 use crate::explore::{Areas, Blacklisted};
@@ -14,7 +16,7 @@ use crate::ros::msg::visualization_msgs::MarkerArray;
 use crate::ros::region::{AreaDrawing, Clicked};
 use crate::ros::transforms::Transforms;
 use crate::ros::{Feed, Node, Publisher};
-use crate::tf::frame_name;
+use asked::{Asked, Wish};
 use nalgebra::Point3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -23,36 +25,6 @@ use std::time::{Duration, Instant};
 const LOOK: Duration = Duration::from_secs(60);
 /// A frame that is not known yet may be told a little later than the first map.
 const FRAME_PATIENCE: Duration = Duration::from_secs(2);
-
-/// What a message asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wish {
-    SetRegion,
-    AddNoGo,
-    RegionClick,
-    NoGoClick,
-}
-
-impl Wish {
-    /// What its points are, for sentences.
-    const fn name(self) -> &'static str {
-        match self {
-            Self::SetRegion => "the corners on ~set_region",
-            Self::AddNoGo => "the corners on ~add_no_go",
-            Self::RegionClick => "the point on clicked_point",
-            Self::NoGoClick => "the point on ~no_go_point",
-        }
-    }
-}
-
-/// A message with its points, in its own frame.
-#[derive(Clone, Debug, PartialEq)]
-struct Asked {
-    wish: Wish,
-    frame: String,
-    stamp_s: f64,
-    points: Vec<Point3<f64>>,
-}
 
 /// What has been asked for so far.
 struct Drawn {
@@ -198,33 +170,17 @@ impl Shared {
         }
         let map = self.map_frame();
         for (asked, since) in std::mem::take(&mut drawn.waiting) {
-            let is_known = !map.is_empty() || frame_name(&asked.frame).is_empty();
-            if !is_known {
+            if map.is_empty() && asked.names_a_frame() {
                 drawn.waiting.push((asked, None));
                 continue;
             }
-            match self.to_map(&asked, &map) {
+            match asked.to_map(&self.transforms, &map) {
                 Ok(points) => self.grant(&mut drawn, asked.wish, points),
                 Err(why) if since.is_some_and(|since| since.elapsed() >= FRAME_PATIENCE) => self.node.log().warn(why),
                 Err(_) => drawn.waiting.push((asked, Some(since.unwrap_or_else(Instant::now)))),
             }
         }
         self.show(&mut drawn);
-    }
-
-    /// The points in the map's frame; an empty name is taken for it.
-    fn to_map(&self, asked: &Asked, map: &str) -> Result<Vec<Point>, String> {
-        let frame = frame_name(&asked.frame);
-        let flat = |point: Point3<f64>| Point::new(point.x, point.y);
-        if frame.is_empty() || frame == frame_name(map) {
-            return Ok(asked.points.iter().copied().map(flat).collect());
-        }
-        let placed = self.transforms.place(map, frame, asked.stamp_s);
-        let placed = placed.map_err(|error| {
-            let name = asked.wish.name();
-            format!("{name} cannot be brought from the frame {frame} to the map's frame {map}: {error}")
-        })?;
-        Ok(asked.points.iter().map(|point| flat(placed * point)).collect())
     }
 
     fn grant(&self, drawn: &mut Drawn, wish: Wish, points: Vec<Point>) {
