@@ -17,6 +17,9 @@ use teleporter::{Teleporter, point_robot};
 #[path = "explorer_areas_tests.rs"]
 mod areas;
 
+#[path = "explorer_blame_tests.rs"]
+mod blame;
+
 #[path = "explorer_own_strategy_tests.rs"]
 mod own_strategy;
 

@@ -1,7 +1,7 @@
 //! The action `~explore`: an exploration as a mission script orders it, with feedback and a
 //! result.
 
-use super::areas::brought;
+use super::areas::{Asked, Wish};
 use super::connect::Connected;
 use super::desk::{Desk, Order, Request};
 use super::settings::ExploreNodeError;
@@ -190,13 +190,14 @@ impl MapFrame {
         let Some(map) = self.maps.newest().map(|map| map.frame) else {
             return Err("the corners of the region: no map has come that could tell its frame".to_owned());
         };
-        let (frame, stamp_s) = (&region.header.frame_id, convert::seconds(&region.header.stamp));
-        let mut corners = Err(String::new());
+        let (frame, stamp_s) = (region.header.frame_id.clone(), convert::seconds(&region.header.stamp));
+        let asked = Asked { wish: Wish::Order, frame, stamp_s, points };
+        let mut corners = Ok(Vec::new());
         self.node.wait_until(TRANSFORM_WITHIN, || {
-            corners = brought(&self.transforms, &map, frame, stamp_s, &points);
+            corners = asked.to_map(&self.transforms, &map);
             corners.is_ok()
         });
-        corners.map_err(|why| format!("the corners of the region {why}"))
+        corners
     }
 }
 

@@ -1,6 +1,8 @@
 //! The region and the no-go areas as users set them while the node runs: polygons on topics and
 //! clicks in RViz, in any frame that tf brings to the map's, and the markers that show them.
 
+mod asked;
+
 use super::connect::Connected;
 use super::settings::{ExploreNodeError, Settings};
 use crate::explore::{Areas, Blacklisted};
@@ -15,7 +17,7 @@ use crate::ros::msg::visualization_msgs::MarkerArray;
 use crate::ros::region::{AreaDrawing, Clicked};
 use crate::ros::transforms::Transforms;
 use crate::ros::{Feed, Node, Publisher};
-use crate::tf::frame_name;
+pub use asked::{Asked, Wish};
 use nalgebra::Point3;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -24,36 +26,6 @@ use std::time::{Duration, Instant};
 const LOOK: Duration = Duration::from_secs(60);
 /// A frame that is not known yet may be told a little later than the first map.
 const FRAME_PATIENCE: Duration = Duration::from_secs(2);
-
-/// What a message asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Wish {
-    SetRegion,
-    AddNoGo,
-    RegionClick,
-    NoGoClick,
-}
-
-impl Wish {
-    /// What its points are, for sentences.
-    const fn name(self) -> &'static str {
-        match self {
-            Self::SetRegion => "the corners on ~set_region",
-            Self::AddNoGo => "the corners on ~add_no_go",
-            Self::RegionClick => "the point on clicked_point",
-            Self::NoGoClick => "the point on ~no_go_point",
-        }
-    }
-}
-
-/// A message with its points, in its own frame.
-#[derive(Clone, Debug, PartialEq)]
-struct Asked {
-    wish: Wish,
-    frame: String,
-    stamp_s: f64,
-    points: Vec<Point3<f64>>,
-}
 
 /// What has been asked for so far.
 struct Drawn {
@@ -167,25 +139,6 @@ impl AreaInputs {
     }
 }
 
-/// Points of a frame at a time in the map's frame; an empty name is taken for it.
-pub fn brought(
-    transforms: &Transforms,
-    map: &str,
-    frame: &str,
-    stamp_s: f64,
-    points: &[Point3<f64>],
-) -> Result<Vec<Point>, String> {
-    let frame = frame_name(frame);
-    let flat = |point: Point3<f64>| Point::new(point.x, point.y);
-    if frame.is_empty() || frame == frame_name(map) {
-        return Ok(points.iter().copied().map(flat).collect());
-    }
-    let placed = transforms
-        .place(map, frame, stamp_s)
-        .map_err(|error| format!("cannot be brought from the frame {frame} to the map's frame {map}: {error}"))?;
-    Ok(points.iter().map(|point| flat(placed * point)).collect())
-}
-
 impl Shared {
     fn lock(&self) -> MutexGuard<'_, Drawn> {
         self.drawn.lock().unwrap_or_else(PoisonError::into_inner)
@@ -219,12 +172,11 @@ impl Shared {
         }
         let map = self.map_frame();
         for (asked, since) in std::mem::take(&mut drawn.waiting) {
-            let is_known = !map.is_empty() || frame_name(&asked.frame).is_empty();
-            if !is_known {
+            if map.is_empty() && asked.names_a_frame() {
                 drawn.waiting.push((asked, None));
                 continue;
             }
-            match self.to_map(&asked, &map) {
+            match asked.to_map(&self.transforms, &map) {
                 Ok(points) => self.grant(&mut drawn, asked.wish, points),
                 Err(why) if since.is_some_and(|since| since.elapsed() >= FRAME_PATIENCE) => self.node.log().warn(why),
                 Err(_) => drawn.waiting.push((asked, Some(since.unwrap_or_else(Instant::now)))),
@@ -233,15 +185,9 @@ impl Shared {
         self.show(&mut drawn);
     }
 
-    /// The points in the map's frame; an empty name is taken for it.
-    fn to_map(&self, asked: &Asked, map: &str) -> Result<Vec<Point>, String> {
-        let Asked { frame, stamp_s, points, .. } = asked;
-        brought(&self.transforms, map, frame, *stamp_s, points).map_err(|why| format!("{} {why}", asked.wish.name()))
-    }
-
     fn grant(&self, drawn: &mut Drawn, wish: Wish, points: Vec<Point>) {
         match wish {
-            Wish::SetRegion => self.close(drawn, true, Polygon::new(points.clone()), points.is_empty()),
+            Wish::SetRegion | Wish::Order => self.close(drawn, true, Polygon::new(points.clone()), points.is_empty()),
             Wish::AddNoGo => self.close(drawn, false, Polygon::new(points.clone()), points.is_empty()),
             Wish::RegionClick | Wish::NoGoClick => {
                 for point in points {
