@@ -86,6 +86,10 @@ fn healthy(world: &World) {
     let during = doctor(&[]);
     assert_eq!((during.code, during.unwell()), (0, Vec::new()), "{:#?}", during.findings);
     assert_eq!(during.of("explorers")[1], "/explore runs, and nobody else drives");
+    // The clock had gone on for long before it was looked at.
+    let pace = during.of("clock")[1].rsplit_once(" runs at ").and_then(|(_, rest)| rest.split(' ').next());
+    let pace: f64 = pace.and_then(|pace| pace.parse().ok()).expect("a pace");
+    assert!((0.5..2.0).contains(&pace), "{pace}");
     let text = Command::new(env!("CARGO_BIN_EXE_frontier")).arg("doctor").output().unwrap();
     let text = String::from_utf8(text.stdout).unwrap();
     assert!(text.lines().last() == Some("all is well") && text.contains("\nok       clock: /clock of /sim"), "{text}");

@@ -41,12 +41,18 @@ const SLICE: Duration = Duration::from_millis(50);
 pub fn gather(node: &Node, wanted: &Wanted, limit: Duration) -> Result<Facts, String> {
     let first = listing_within(node, MASTER_LIMIT).ok_or("the ROS master does not tell its topics")?;
     let ears = Ears::open(node, wanted, &first);
-    let (began, began_s) = (Instant::now(), node.now_s());
+    let began = Instant::now();
+    // Before the first message of /clock there is no time to begin with.
+    let mut clock_began = None;
     let (mut watch, mut listing) = (ClockWatch::new(), first);
     let is_simulated = node.is_simulated_time();
     loop {
         std::thread::sleep(SLICE);
-        watch.stands_for(node.now_s());
+        let now_s = node.now_s();
+        watch.stands_for(now_s);
+        if now_s > 0.0 {
+            clock_began.get_or_insert((Instant::now(), now_s));
+        }
         listing = node.listing(LISTING_AGE).unwrap_or(listing);
         let elapsed = began.elapsed();
         let frames_done = elapsed >= FRAMES_LIMIT || pose(node, wanted, &ears).is_ok();
@@ -62,7 +68,7 @@ pub fn gather(node: &Node, wanted: &Wanted, limit: Duration) -> Result<Facts, St
         publishers: listing.publishers("/clock"),
         now_s,
         stands_s: watch.stands_for(now_s).as_secs_f64(),
-        pace: (now_s - began_s) / listened_s,
+        pace: clock_began.map_or(0.0, |(at, began_s)| (now_s - began_s) / at.elapsed().as_secs_f64()),
     };
     let frames = frame_facts(node, wanted, &ears, &listing);
     let topic = |name: &str, kind: &str| topic_facts(&listing, name, kind, listened_s);

@@ -139,6 +139,8 @@ const fn phase(number: u8) -> &'static str {
         ExplorationStatus::WAITING_FOR_NAVIGATION => "waiting_for_navigation",
         ExplorationStatus::BACKING_OFF => "backing_off",
         ExplorationStatus::RESTING => "resting",
+        ExplorationStatus::IDLE => "idle",
+        ExplorationStatus::YIELDING => "yielding",
         _ => "unknown",
     }
 }
