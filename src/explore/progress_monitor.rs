@@ -1,6 +1,7 @@
 //! Tells whether the robot comes nearer to its goal, or has made no progress for too long.
 
 use crate::geometry::{Pose, shortest_angle};
+use std::f64::consts::PI;
 
 /// Watches for a robot that stays at the same position for too long.
 #[derive(Clone, Copy, Debug)]
@@ -10,17 +11,24 @@ pub struct ProgressMonitor {
     /// Where it was when it last moved at all, and when.
     still: (Pose, f64),
     has_moved: bool,
+    /// Where it has been turning, with its last heading, and how far it turned there, radians.
+    turning: (Pose, f64),
 }
 
 /// Motion below this is standing still, metres and radians.
 const STILL_M: f64 = 0.05;
 const STILL_RAD: f64 = 0.15;
+/// A robot that came farther than this has not turned on the spot, metres.
+const SPOT_M: f64 = 0.1;
+/// Half a turn faces every goal: one that turned farther on the spot, to and fro or round and round,
+/// gets nowhere, radians.
+const IN_VAIN_RAD: f64 = PI + 0.6;
 
 impl ProgressMonitor {
     /// Starts watching at a pose and a time in seconds.
     #[must_use]
     pub const fn new(pose: &Pose, now_s: f64) -> Self {
-        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s), has_moved: false }
+        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s), has_moved: false, turning: (*pose, 0.0) }
     }
 
     /// Seconds since the robot was last `distance_m` away from where it is now.
@@ -41,6 +49,21 @@ impl ProgressMonitor {
             return 0.0;
         }
         now_s - since_s
+    }
+
+    /// Whether the robot has turned on the spot farther than any goal asks for.
+    pub fn turns_in_vain(&mut self, pose: &Pose) -> bool {
+        let (spot, turned_rad) = self.turning;
+        if pose.distance_to(spot.position()) > SPOT_M {
+            self.turning = (*pose, 0.0);
+            return false;
+        }
+        // What is less is noise of the localisation.
+        let more_rad = shortest_angle(spot.yaw, pose.yaw).abs();
+        if more_rad >= STILL_RAD {
+            self.turning = (Pose { yaw: pose.yaw, ..spot }, turned_rad + more_rad);
+        }
+        self.turning.1 >= IN_VAIN_RAD
     }
 
     /// Whether it has moved or turned since the watching began.
@@ -68,6 +91,18 @@ mod tests {
         assert_eq!(monitor.stuck_for_s(&Pose::new(0.2, 0.0, 0.0), 9.0, 0.25), 3.0);
         monitor.pause(20.0);
         assert_eq!(monitor.stuck_for_s(&Pose::new(0.2, 0.0, 0.0), 21.0, 0.25), 1.0);
+    }
+
+    #[test]
+    fn half_a_turn_faces_every_goal_and_more_is_in_vain() {
+        let at = |x: f64, yaw: f64| Pose::new(x, 0.0, yaw);
+        let mut monitor = ProgressMonitor::new(&at(0.0, 0.0), 0.0);
+        let turned = |monitor: &mut ProgressMonitor, x: f64, yaws: &[f64]| {
+            yaws.iter().filter(|&&yaw| monitor.turns_in_vain(&at(x, yaw))).count()
+        };
+        assert_eq!(turned(&mut monitor, 0.0, &[0.5, 1.0, 1.5, 2.0, 2.5, 3.1, 3.05, 3.1, 3.05]), 0);
+        assert_eq!(turned(&mut monitor, 0.2, &[3.1, 2.0, 1.0, 0.0]), 0, "it came away");
+        assert_eq!(turned(&mut monitor, 0.25, &[0.3, 0.6]), 1, "to and fro");
     }
 
     #[test]

@@ -47,6 +47,7 @@ impl Explorer {
                 }
                 let stuck_s = drive.progress.stuck_for_s(&pose, now_s, patience.progress_distance_m);
                 let still_s = drive.progress.still_for_s(&pose, now_s);
+                let turns_in_vain = ours && drive.progress.turns_in_vain(&pose);
                 // A robot that stands where its navigation cannot plan from gets no plan.
                 let wedged = still_s >= WEDGED_STILL_S
                     && self.watch.map().and_then(|map| map.costmap.as_ref()).is_some_and(|costmap| {
@@ -60,6 +61,10 @@ impl Explorer {
                 } else if wedged {
                     self.trouble.is_wedged_here(&pose);
                     Some("the robot stands too near to an obstacle to be planned for".to_owned())
+                } else if turns_in_vain {
+                    // Its controller finds no way out of here: in a door, beside a leg.
+                    self.trouble.is_wedged_here(&pose);
+                    Some("the robot turns on the spot and gets nowhere".to_owned())
                 } else if still_s >= if drive.progress.has_moved() { patience.stall_s } else { patience.begin_s } {
                     if self.settings.taboo.is_final {
                         // A failure is for good there, and this one may be the place's: it backs off first.
