@@ -7,7 +7,7 @@
 //! that shows what is there.
 
 use super::NavigationInput;
-use super::feeler::Feeler;
+use super::feeler::{ENOUGH_M, Feeler};
 use crate::control::Surroundings;
 use crate::geometry::{Body, Pose, Twist, shortest_angle};
 use crate::robot::NavigationState;
@@ -26,8 +26,12 @@ const VAIN_S: f64 = 0.6;
 /// Coming nearer by less than this is rounding, metres.
 const ROUNDING_M: f64 = 2e-3;
 
-/// The motions, the best first where they do equally well: straight where that works at
-/// all, then bows, then turns.
+/// A motion is worth it that leads so much farther away from everything: along a wall nothing is
+/// won, metres.
+const WORTH_M: f64 = 0.04;
+
+/// The motions, the best first where they do equally well: straight where that is worth it, then
+/// bows, then turns.
 const MOTIONS: [&[Twist]; 3] = [
     &[Twist::new(-SPEED_MPS, 0.0), Twist::new(SPEED_MPS, 0.0)],
     &[
@@ -93,14 +97,25 @@ impl BackOff {
                 return Some(twist);
             }
         }
-        let best = MOTIONS.into_iter().find_map(|motions| {
-            let open = motions.iter().filter(|motion| !self.vain.contains(motion));
-            let gains =
-                open.filter_map(|&motion| Some((self.feeler.gain_m(pose, around, motion, ROUNDING_M)?, motion)));
-            gains.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, motion)| motion)
-        });
-        self.motion = best.map(|twist| (twist, *pose, now_s));
-        best
+        let worth_m = (self.feeler.clearance_m(pose, around) + WORTH_M).min(ENOUGH_M);
+        let mut best: Option<(f64, Twist)> = None;
+        for motions in MOTIONS {
+            for &motion in motions.iter().filter(|motion| !self.vain.contains(motion)) {
+                let gain_m = self.feeler.gain_m(pose, around, motion, ROUNDING_M);
+                // Of motions that do equally well the first one is taken.
+                if let Some(gain_m) =
+                    gain_m.filter(|gain_m| best.is_none_or(|(best_m, _)| *gain_m > best_m + ROUNDING_M))
+                {
+                    best = Some((gain_m, motion));
+                }
+            }
+            if best.is_some_and(|(gain_m, _)| gain_m >= worth_m) {
+                break;
+            }
+        }
+        let motion = best.map(|(_, motion)| motion);
+        self.motion = motion.map(|twist| (twist, *pose, now_s));
+        motion
     }
 }
 
@@ -168,6 +183,14 @@ mod tests {
         assert!(nearest_m > leg.coords.norm() - 0.18 - 1e-3, "{nearest_m}");
         let behind = Point::new(-0.17, 0.0);
         assert!(back_off(&[behind], Pose::default(), true).0.x > 0.2, "ahead, where it stands behind");
+    }
+
+    #[test]
+    fn along_a_wall_it_bends_away() {
+        let wall: Vec<Point> = (-60..=60).map(|i| Point::new(0.03 * f64::from(i), 0.23)).collect();
+        let (end, state, nearest_m) = back_off(&wall, Pose::default(), true);
+        assert_eq!(state, NavigationState::Succeeded);
+        assert!(end.y < -0.06 && nearest_m > 0.045, "{end:?}, {nearest_m} m");
     }
 
     #[test]

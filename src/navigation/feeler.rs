@@ -13,7 +13,7 @@ const STEP_S: f64 = 0.1;
 /// A motion that leads less far is none.
 const FEWEST_STEPS: usize = 4;
 /// Distances from here on are as good as any, metres.
-const ENOUGH_M: f64 = 0.4;
+pub const ENOUGH_M: f64 = 0.4;
 /// The fastest motion that is asked about, metres per second.
 const FASTEST_MPS: f64 = 0.12;
 
@@ -44,10 +44,15 @@ impl Feeler {
         Surroundings::new(&control, self.radius_m + ENOUGH_M + AHEAD_S * FASTEST_MPS).ok()
     }
 
+    /// How far from everything the body is at a pose, metres, up to where it is far enough.
+    pub fn clearance_m(&self, pose: &Pose, around: &Surroundings) -> f64 {
+        around.clearance_m(&self.outline, self.radius_m, pose, ENOUGH_M)
+    }
+
     /// How far from everything the body comes, metres, if a motion brings it nearer to
     /// nothing for at least a few steps; coming nearer by `slack_m` is nothing.
     pub fn gain_m(&self, pose: &Pose, around: &Surroundings, motion: Twist, slack_m: f64) -> Option<f64> {
-        let clearance_m = |at: &Pose| around.clearance_m(&self.outline, self.radius_m, at, ENOUGH_M);
+        let clearance_m = |at: &Pose| self.clearance_m(at, around);
         let least_m = clearance_m(pose).min(CLEAR_M) - slack_m;
         let steps = (1..=(AHEAD_S / STEP_S) as u32).map(|step| motion.advance(pose, STEP_S * f64::from(step)));
         let led: Vec<f64> = steps.map(|at| clearance_m(&at)).take_while(|&here_m| here_m >= least_m).collect();

@@ -51,10 +51,21 @@ impl Driver {
                     }
                     Command::Hold | Command::Turn { .. } | Command::BackOff { .. } => {
                         stand_in.cancel();
+                        if matches!(command, Command::BackOff { .. }) {
+                            // As explore_node asks move_base then.
+                            stand_in.clear_costmaps();
+                        }
                         own.command(command);
                     }
                 }
             }
+        }
+    }
+
+    /// Forgets obstacles that are not seen any more, as move_base's service does.
+    pub fn clear_costmaps(&mut self) {
+        if let Self::MoveBase { stand_in, .. } = self {
+            stand_in.clear_costmaps();
         }
     }
 

@@ -125,7 +125,12 @@ impl SimRobot {
     }
 
     fn steer(&mut self) {
+        let was_given_up = matches!(self.navigation.state, NavigationState::Aborted(_));
         (self.twist_command, self.navigation) = self.driver.update(&self.plant, self.control_period_s);
+        if !was_given_up && matches!(self.navigation.state, NavigationState::Aborted(_)) {
+            // As explore_node asks move_base then.
+            self.driver.clear_costmaps();
+        }
     }
 }
 

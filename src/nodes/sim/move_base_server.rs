@@ -42,6 +42,7 @@ const COSTMAP_PERIOD_S: f64 = 1.0;
 enum Order {
     Goal(GoalID, Pose),
     Cancel(GoalID),
+    ClearCostmaps,
 }
 
 /// What the plan service knows.
@@ -109,7 +110,7 @@ impl MoveBaseServer {
             next_status: Instant::now(),
             next_feedback: Instant::now(),
             _feeds: listen(node, &orders),
-            _services: serve(node, &plans)?,
+            _services: serve(node, &plans, &orders)?,
             node: node.clone(),
             orders,
             plans,
@@ -206,6 +207,7 @@ impl MoveBaseServer {
                     self.driver.drive(self.commands, goal_in_map, sim_s);
                     let _ = self.current_goal.send(convert::stamped(&goal_in_map, MAP, stamp_s));
                 }
+                Order::ClearCostmaps => self.driver.clear_costmaps(),
                 Order::Cancel(id) => {
                     let cancelled = self.book.cancel(&id, now_s);
                     if cancelled.is_some() {
@@ -255,7 +257,7 @@ fn listen(node: &Node, orders: &Arc<Mutex<Vec<Order>>>) -> Vec<Feed> {
     ]
 }
 
-fn serve(node: &Node, plans: &Arc<Mutex<Plans>>) -> Result<Vec<Service>, NodeError> {
+fn serve(node: &Node, plans: &Arc<Mutex<Plans>>, orders: &Arc<Mutex<Vec<Order>>>) -> Result<Vec<Service>, NodeError> {
     let plans = Arc::clone(plans);
     let make_plan = node.serve::<GetPlan>("move_base/make_plan", move |request| {
         let plans = &mut *lock(&plans);
@@ -270,7 +272,11 @@ fn serve(node: &Node, plans: &Arc<Mutex<Plans>>) -> Result<Vec<Service>, NodeErr
             .map_or_else(PathMessage::default, |path| convert::path_message(&path, MAP, 0.0));
         Ok(GetPlanRes { plan })
     })?;
-    let clear = node.serve::<std_srvs::Empty>("move_base/clear_costmaps", |_| Ok(std_srvs::EmptyRes {}))?;
+    let orders = Arc::clone(orders);
+    let clear = node.serve::<std_srvs::Empty>("move_base/clear_costmaps", move |_| {
+        orders.lock().unwrap_or_else(PoisonError::into_inner).push(Order::ClearCostmaps);
+        Ok(std_srvs::EmptyRes {})
+    })?;
     Ok(vec![make_plan, clear])
 }
 

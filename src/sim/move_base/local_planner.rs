@@ -60,6 +60,11 @@ impl LocalPlanner {
         }
     }
 
+    /// Forgets all obstacles; the next scan marks what is there.
+    pub fn forget(&mut self) {
+        (self.window, self.costmap, self.scan_s) = (None, None, f64::NEG_INFINITY);
+    }
+
     /// Forgets obstacles beyond a distance in metres.
     pub fn clear_beyond(&mut self, place: &Pose, distance_m: f64) {
         if let Some(window) = &mut self.window {

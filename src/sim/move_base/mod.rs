@@ -114,6 +114,11 @@ impl MoveBase {
         self.navigation = Navigation { command: 0, state: NavigationState::Idle };
     }
 
+    /// Forgets all obstacles that are not seen any more, as the service `clear_costmaps` does.
+    pub fn clear_costmaps(&mut self) {
+        self.local.forget();
+    }
+
     /// The plan being followed, if any.
     #[must_use]
     pub fn path(&self) -> Option<&Path> {
