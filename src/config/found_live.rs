@@ -2,6 +2,7 @@
 //! gave, what was set while an earlier run went on, and what that run had merely told.
 
 use super::live::{LiveNode, live_names, of_preset, set};
+use super::names::{hint, unknown};
 use super::params::{ParamError, read_params};
 use super::preset::Preset;
 use crate::range::{OutOfRange, Range};
@@ -81,8 +82,21 @@ impl FoundLive {
     }
 }
 
+/// What is said of a name that nobody knows, with the nearest of the live parameters where no
+/// other name is near.
+pub(super) fn hinted(mut error: ParamError) -> ParamError {
+    let is_top_level = !error.path.contains('.');
+    if let (Some((wanted, _)), true) = (unknown(&error.message), is_top_level)
+        && !error.message.contains("did you mean")
+    {
+        error.message = format!("{}{}", error.message, hint(wanted, live_names()));
+    }
+    error
+}
+
 /// Whether two values are the same, however a number is written.
-fn is_same(a: &Value, b: &Value) -> bool {
+#[must_use]
+pub fn is_same(a: &Value, b: &Value) -> bool {
     match (a.as_f64(), b.as_f64()) {
         (Some(a), Some(b)) => a == b,
         _ => a == b,
@@ -134,6 +148,13 @@ mod tests {
         assert_eq!((params.visualize, params.transform_tolerance), (false, 0.9));
         assert_eq!(params.live.held.keys().collect::<Vec<_>>(), ["goal_timeout", "visualize"]);
         assert_eq!(params.live.given.keys().collect::<Vec<_>>(), ["transform_tolerance"]);
+    }
+
+    #[test]
+    fn a_misspelt_name_is_answered_with_the_nearest() {
+        let error = |tree: Value| NodeParams::from_tree(tree).unwrap_err().to_string();
+        assert!(error(json!({"min_siz": 1})).ends_with("(did you mean min_size?)"));
+        assert!(error(json!({"base_frme": "x"})).ends_with("(did you mean base_frame?)"));
     }
 
     #[test]

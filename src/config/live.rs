@@ -55,7 +55,7 @@ const NODE: &[(&str, &str, f64, f64)] = &[
     ("yield_to_others", "How long goals of others are left to their end, seconds.", 0.0, WEEK_S),
     ("clear_costmaps", "Ask move_base to clear its costmaps when a goal failed.", 0.0, 1.0),
     ("visualize", "Publish markers for RViz.", 0.0, 1.0),
-    ("exit_when_done", "Leave when the exploration has ended.", 0.0, 1.0),
+    ("exit_when_done", "Leave when the exploration that is under way, or else the next one, has ended.", 0.0, 1.0),
 ];
 
 /// The names of all live parameters, also of those that only some presets have.

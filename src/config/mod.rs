@@ -13,7 +13,7 @@ mod robots;
 mod setting;
 
 pub use explained::{ExplainError, Explained};
-pub use found_live::FoundLive;
+pub use found_live::{FoundLive, is_same};
 pub use live::{Live, LiveError, LiveNode, LiveParam, live_names};
 pub use names::hint;
 pub use node::{NodeParams, NodeParamsError, TurnBy};

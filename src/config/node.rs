@@ -4,7 +4,7 @@
 //! Beside the node's own names it knows those of explore_lite, so that its launch file
 //! works with another `pkg` and `type`.
 
-use super::found_live::FoundLive;
+use super::found_live::{FoundLive, hinted};
 use super::live::LiveNode;
 use super::merge::merge;
 use super::names::unknown;
@@ -215,7 +215,7 @@ impl NodeParams {
     /// [`NodeParamsError`] with the parameter, its value and what is allowed.
     pub fn from_tree(mut tree: Value) -> Result<Self, NodeParamsError> {
         let live = FoundLive::take(&mut tree, Self::is_own);
-        let mut params = Self { live, ..read_params(tree)? };
+        let mut params = Self { live, ..read_params(tree).map_err(hinted)? };
         let replace = |ours: &mut String, theirs: &mut Option<String>| {
             if let Some(name) = theirs.take() {
                 *ours = name;

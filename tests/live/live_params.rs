@@ -8,11 +8,13 @@ use frontier_explorer::ros::msg::dynamic_reconfigure::{
     BoolParameter, Config, ConfigDescription, DoubleParameter, Reconfigure, ReconfigureReq,
 };
 use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
+use frontier_explorer::ros::msg::std_msgs::String as StringMessage;
 use frontier_explorer::ros::msg::visualization_msgs::{Marker, MarkerArray};
 use std::time::Duration;
 
 pub const TESTS: &[Test] = &[
     ("live_parameters_change_the_run_under_way", changes_the_run),
+    ("live_parameters_reach_the_robot", reaches_the_robot),
     ("live_parameters_outlive_the_process_and_told_ones_do_not", outlives),
 ];
 
@@ -113,6 +115,18 @@ fn changes_the_run(world: &World) {
     eventually(SOON, ends_again, || format!("{:?}", status.last()));
     explore.signal("TERM");
     explore.expect_code(0, SOON);
+}
+
+fn reaches_the_robot(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
+    faults.set_latching(true);
+    let _sim = world.simulate_kindly(&["_speed:=3"]);
+    let explore = stays(world, &[]);
+    status.expect(DEADLINE, "a way", |m| m.phase == ExplorationStatus::TURNING || m.goals_sent > 0);
+    set(world, double("transform_tolerance", 2.25)).unwrap();
+    faults.send(StringMessage { data: "drop_tf".to_owned() }).unwrap();
+    explore.expect_log("s old: must be at most 2.25 s", SOON);
 }
 
 fn outlives(world: &World) {

@@ -6,7 +6,7 @@ use super::connect::Connected;
 use super::operator::Operator;
 use super::outputs::Outputs;
 use super::settings::{ExploreNodeError, Settings};
-use crate::config::{Live, LiveError, LiveParam};
+use crate::config::{Live, LiveError, LiveParam, is_same};
 use crate::explore::Explorer;
 use crate::ros::bell::Bell;
 use crate::ros::dynamic_reconfigure::{ParamValue, Parameter, Values, offer};
@@ -28,6 +28,8 @@ struct Shared {
     bell: Arc<Bell>,
     tuning: Tuning,
     robot: Value,
+    /// Tells this process from another of the same node.
+    run: String,
     state: Mutex<State>,
 }
 
@@ -65,6 +67,7 @@ impl LiveParams {
             bell: Arc::clone(&connected.bell),
             tuning: connected.tuning.clone(),
             robot: serde_json::to_value(&settings.robot).unwrap_or_default(),
+            run: run_name(),
             state: Mutex::new(State { live, written, changed: found.held.keys().cloned().collect(), is_new: false }),
         });
         let names: Vec<String> = shared.lock().written.keys().cloned().collect();
@@ -168,9 +171,9 @@ impl Shared {
             let values: Vec<(String, Value)> =
                 names.iter().filter_map(|name| Some((name.clone(), state.written.get(name)?.clone()))).collect();
             let preset = serde_json::to_value(&state.live.preset).unwrap_or_default();
-            let (written, changed) = (&state.written, &state.changed);
-            let robot = &self.robot;
-            (values, json!({"preset": preset, "robot": robot, "written": written, "changed": changed}))
+            let State { written, changed, .. } = &*state;
+            let (robot, run) = (&self.robot, &self.run);
+            (values, json!({"preset": preset, "robot": robot, "written": written, "changed": changed, "run": run}))
         };
         let told = values.iter().try_for_each(|(name, value)| self.set(name, value));
         if let Err(error) = told.and_then(|()| self.set("effective", &effective)) {
@@ -178,15 +181,19 @@ impl Shared {
         }
     }
 
-    /// Takes back what was told and never set.
+    /// Takes back what was told and never set, unless another process has begun to tell it.
     fn forget(&self) {
+        // Whether a master is still there is nobody's business at an end.
+        let Ok(tree) = self.node.private_params() else { return };
+        if tree["effective"]["run"] != self.run {
+            return;
+        }
         let state = self.lock();
         let (kept, told): (Map<String, Value>, Map<String, Value>) =
             state.written.clone().into_iter().partition(|(name, _)| state.changed.contains(name));
         drop(state);
-        // Whether a master is still there is nobody's business at an end.
         if self.set("effective/written", &Value::Object(kept)).is_ok() {
-            for name in told.keys() {
+            for (name, _) in told.iter().filter(|(name, value)| is_same(&tree[name.as_str()], value)) {
                 let _ = self.node.delete_param(&format!("{}/{name}", self.node.name()));
             }
         }
@@ -195,6 +202,12 @@ impl Shared {
     fn set(&self, name: &str, value: &Value) -> Result<(), NodeError> {
         self.node.set_param(&format!("{}/{name}", self.node.name()), &ParamTree(value))
     }
+}
+
+/// A name that no other process has.
+fn run_name() -> String {
+    let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default();
+    format!("{}-{}", std::process::id(), since.as_nanos())
 }
 
 /// A parameter as dynamic_reconfigure tells it.
