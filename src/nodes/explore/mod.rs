@@ -93,12 +93,12 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     let (mut robot, mut connected) = connect(node, &settings, earlier_map)?;
     let saver = Arc::new(MapSaver::new(&params.map_file, connected.maps.clone(), node.log(), &connected.troubles));
     saver.check();
+    let live = LiveParams::offer(node, &settings, &connected)?;
     let outputs = Outputs::offer(node, &settings, &connected, &saver)?;
     let desk = Desk::new(&connected.bell);
     let action = ExploreAction::offer(node, &desk, &connected, Box::new(outputs.teller()))?;
     let _controls = Controls::listen(node, &settings, &connected, &desk)?;
     let areas = AreaInputs::listen(node, &settings, &connected)?;
-    let live = LiveParams::offer(node, &settings, &connected)?;
     let mut operator = Operator::new(node, desk, &connected, action);
     let mut keeper = SessionKeeper::new(&params.session_file, connected.maps.clone(), node.log(), &connected.troubles);
     let mut recall = Recall::new(connected.maps.clone(), node.log().clone(), preset.explorer.areas());
