@@ -1,6 +1,8 @@
 //! Configuration files: raw serde structs that become validated types (floor 2).
 
 mod explained;
+mod found_live;
+mod live;
 mod merge;
 mod names;
 mod node;
@@ -11,6 +13,8 @@ mod robots;
 mod setting;
 
 pub use explained::{ExplainError, Explained};
+pub use found_live::{FoundLive, is_same};
+pub use live::{Live, LiveError, LiveNode, LiveParam, live_names};
 pub use names::hint;
 pub use node::{NodeParams, NodeParamsError, TurnBy};
 pub use params::{ParamError, read_params};

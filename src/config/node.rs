@@ -4,6 +4,8 @@
 //! Beside the node's own names it knows those of explore_lite, so that its launch file
 //! works with another `pkg` and `type`.
 
+use super::found_live::{FoundLive, hinted};
+use super::live::LiveNode;
 use super::merge::merge;
 use super::names::unknown;
 use super::params::{ParamError, read_params};
@@ -155,7 +157,13 @@ pub struct NodeParams {
     pub min_frontier_size: Option<f64>,
     /// explore_lite (ROS 2): drive back to the start at the end.
     pub return_to_init: Option<bool>,
+    /// Those that may change while the node runs, as they were found.
+    #[serde(skip)]
+    pub live: FoundLive,
 }
+
+/// The live parameters of a preset that explore_lite has too.
+const EXPLORE_LITE: [&str; 4] = ["progress_timeout", "potential_scale", "orientation_scale", "gain_scale"];
 
 impl Default for NodeParams {
     fn default() -> Self {
@@ -197,6 +205,7 @@ impl Default for NodeParams {
             gain_scale: None,
             min_frontier_size: None,
             return_to_init: None,
+            live: FoundLive::default(),
         }
     }
 }
@@ -207,8 +216,9 @@ impl NodeParams {
     ///
     /// # Errors
     /// [`NodeParamsError`] with the parameter, its value and what is allowed.
-    pub fn from_tree(tree: Value) -> Result<Self, NodeParamsError> {
-        let mut params: Self = read_params(tree)?;
+    pub fn from_tree(mut tree: Value) -> Result<Self, NodeParamsError> {
+        let live = FoundLive::take(&mut tree, Self::is_own);
+        let mut params = Self { live, ..read_params(tree).map_err(hinted)? };
         let replace = |ours: &mut String, theirs: &mut Option<String>| {
             if let Some(name) = theirs.take() {
                 *ours = name;
@@ -221,6 +231,18 @@ impl NodeParams {
         params.no_go = params.no_go.filter(|areas| !areas.is_empty());
         params.validate()?;
         Ok(params)
+    }
+
+    /// Whether a live parameter has a field here.
+    fn is_own(name: &str) -> bool {
+        EXPLORE_LITE.contains(&name) || LiveNode::NAMES.contains(&name)
+    }
+
+    /// What of the node itself may change while it runs.
+    #[must_use]
+    pub const fn live_node(&self) -> LiveNode {
+        let &Self { transform_tolerance, yield_to_others, clear_costmaps, visualize, exit_when_done, .. } = self;
+        LiveNode { transform_tolerance, yield_to_others, clear_costmaps, visualize, exit_when_done }
     }
 
     fn validate(&self) -> Result<(), NodeParamsError> {
@@ -283,6 +305,7 @@ impl NodeParams {
             };
             preset.explorer.no_go = areas.iter().enumerate().map(area).collect::<Result<_, _>>()?;
         }
+        let preset: Preset = self.live.lay_over::<NodeParamsError>(preset, Self::is_own)?;
         preset.validate()?;
         Ok(preset)
     }

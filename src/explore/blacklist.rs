@@ -253,6 +253,11 @@ impl Blacklist {
         failed
     }
 
+    /// Judges by other numbers from now on, also what failed before.
+    pub const fn set_config(&mut self, config: TabooConfig) {
+        self.config = config;
+    }
+
     const fn is_taboo(&self, entry: &Entry) -> bool {
         entry.failures >= self.config.max_failures
     }

@@ -14,6 +14,9 @@ use std::f64::consts::{PI, TAU};
 mod teleporter;
 use teleporter::{Teleporter, point_robot};
 
+#[path = "explorer_adjust_tests.rs"]
+mod adjusting;
+
 #[path = "explorer_areas_tests.rs"]
 mod areas;
 

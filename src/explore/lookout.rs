@@ -89,6 +89,17 @@ impl Lookout {
         }
     }
 
+    /// Builds the detector and the strategy anew where their settings are others now; a strategy
+    /// of one's own stays as long as the settings name the same one.
+    pub fn adjust(&mut self, old: &ExplorerSettings, new: &ExplorerSettings) {
+        if new.detector != old.detector {
+            self.detector = new.detector.name.build(&new.detector_params());
+        }
+        if new.selection != old.selection {
+            self.selector = new.selection.build();
+        }
+    }
+
     /// Whether the strategy itself weighs when a goal under way is given up for a better one.
     pub fn keeps_goals(&self) -> bool {
         self.selector.keeps_goals()

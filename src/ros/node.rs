@@ -154,6 +154,14 @@ impl Node {
         param.set(value).map_err(|e| wrong(e.to_string()))
     }
 
+    /// Takes a parameter away by its full name.
+    ///
+    /// # Errors
+    /// [`NodeError::Params`] when the master does not do it, or knows none of that name.
+    pub fn delete_param(&self, name: &str) -> Result<(), NodeError> {
+        params::delete(&self.ros, name).map_err(|why| NodeError::Params { name: name.to_owned(), why })
+    }
+
     /// Its private parameters as a tree.
     ///
     /// # Errors

@@ -10,6 +10,7 @@ use super::node::{Node, NodeError};
 use super::scan_feed::ScanFeed;
 use super::transforms::Transforms;
 use super::troubles::{Trouble, Troubles};
+use super::tuning::Tuning;
 use crate::control::StopGuard;
 use crate::geometry::{Areas, Body, Path, Point, Pose, Twist};
 use crate::grid::Costmap;
@@ -35,8 +36,8 @@ const LAST_ZEROS: u8 = 3;
 pub struct PilotConfig {
     /// The robot's frame.
     pub base_frame: String,
-    /// How old its transform may be, seconds.
-    pub transform_tolerance_s: f64,
+    /// What may change while it drives.
+    pub tuning: Tuning,
     /// Seconds between commands.
     pub control_period_s: f64,
     /// The robot's body, for the last look at the scan.
@@ -190,7 +191,8 @@ impl DriveLoop {
             return;
         }
         let base = &self.config.base_frame;
-        let pose = self.transforms.robot(&shared.map_frame, base, now_s, self.config.transform_tolerance_s);
+        let tolerance_s = self.config.tuning.now().transform_tolerance_s;
+        let pose = self.transforms.robot(&shared.map_frame, base, now_s, tolerance_s);
         let (Ok(pose_in_map), Some((costmap, costmap_stamp_s))) = (pose, shared.costmap.clone()) else {
             drop(shared);
             self.stand_still();

@@ -14,6 +14,7 @@ use super::robot_map::RobotMap;
 use super::scan_feed::ScanFeed;
 use super::transforms::Transforms;
 use super::troubles::Troubles;
+use super::tuning::Tuning;
 use crate::geometry::{Areas, Pose};
 use crate::robot::{Command, CommandId, Observation, Robot, RobotError};
 use crate::scan::LaserScan;
@@ -26,18 +27,14 @@ use tasks::Task;
 pub struct RosRobotConfig {
     /// Its frame.
     pub base_frame: String,
-    /// How old its transform may be, seconds.
-    pub transform_tolerance_s: f64,
+    /// What may change while it drives.
+    pub tuning: Tuning,
     /// Seconds between observations.
     pub tick_period_s: f64,
     /// Turns are made by goals of move_base.
     pub turn_by_goals: bool,
     /// Velocity commands may get the robot away from what stands too near.
     pub back_off: bool,
-    /// Ask move_base to clear its costmaps when a goal failed.
-    pub clear_costmaps: bool,
-    /// How long goals of others are left to their end, seconds.
-    pub yield_s: f64,
 }
 
 /// The parts of the robot that are connected already.

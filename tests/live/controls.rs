@@ -163,7 +163,7 @@ fn on_the_way_back(world: &World) {
     let status = Statuses::of(world);
     let _sim = world.simulate_kindly(SLOWLY);
     let _explore = stays(world, &[]);
-    status.until_it("driving", |m| m.phase == ExplorationStatus::DRIVING && m.distance_m > 0.8);
+    status.until_it("driving", |m| m.phase == ExplorationStatus::DRIVING && m.distance_m > 0.3);
     ask(world, "pause", true, "paused");
     ask(world, "return_home", true, "drives back to the start at (2.0");
     status.until(ExplorationStatus::RETURNING, "on the way back");

@@ -8,6 +8,7 @@ mod controls;
 mod ctl;
 mod doctor;
 mod fake_publisher;
+mod live_params;
 mod peers;
 mod relay;
 mod rig;
@@ -83,7 +84,7 @@ fn main() {
 
 fn all() -> impl Iterator<Item = &'static Test> {
     let own = TESTS.iter().chain(areas::TESTS).chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
-    own.chain(session::TESTS).chain(doctor::TESTS).chain(ctl::TESTS)
+    own.chain(session::TESTS).chain(doctor::TESTS).chain(ctl::TESTS).chain(live_params::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {

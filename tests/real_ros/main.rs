@@ -28,6 +28,7 @@ type Test = (&'static str, fn(&Stage));
 const TESTS: &[Test] = &[
     ("a_stack_of_real_parts_is_explored", real_parts),
     ("rosnode_kill_and_rostopic_and_rosparam_work", tools),
+    ("dynparam_lists_and_sets_what_may_change", dynparam),
     ("rosbag_records_a_run", rosbag),
     ("rosbag_reads_and_plays_our_bags", our_bags),
     ("catkin_builds_and_roslaunch_runs_the_demo", demo_launch),
@@ -170,6 +171,44 @@ fn tools(stage: &Stage) {
     assert!(!left.contains("/sim") && !left.contains("/explore"), "all is unregistered: {left}");
     let topics = stage.output("rostopic list");
     assert!(!topics.contains("/explore/"), "all is unregistered: {topics}");
+}
+
+fn dynparam(stage: &Stage) {
+    // Debian's script is for the Python of Debian.
+    let tool = |arguments: &str| {
+        stage.output(&format!("PATH=/usr/bin:$PATH timeout 40 rosrun dynamic_reconfigure dynparam {arguments}"))
+    };
+    let get = |name: &str| stage.output(&format!("rosparam get /explore/{name}")).trim().to_owned();
+    let mut explore = stage.explore("_config:=wfd");
+    let listed = || tool("list").lines().any(|line| line == "/explore");
+    eventually(SOON, listed, || explore.log());
+    let all = tool("get /explore");
+    assert!(all.contains("'min_size': 0.3") && all.contains("'nearest_by': 'euclidean'"), "{all}");
+    tool("set /explore min_size 1");
+    tool("set /explore \"{'nearest_by': 'path', 'visualize': False, 'max_failures': 4}\"");
+    let all = tool("get /explore");
+    for now in ["'min_size': 1.0", "'nearest_by': 'path'", "'visualize': False", "'max_failures': 4"] {
+        assert!(all.contains(now), "{now} is not in {all}");
+    }
+    assert_eq!((get("min_size").as_str(), get("nearest_by").as_str()), ("1.0", "path"));
+    assert_eq!(get("effective/preset/explorer/detector/min_size_m"), "1.0");
+    assert_eq!(get("effective/robot/name"), "turtlebot2");
+    let refused = tool("set /explore min_size 11 2>&1 || true");
+    let why = "min_size is 11.0: must be a number within 0 to 10; nothing is changed";
+    assert!(refused.contains(why), "{refused}");
+    explore.expect_log(why, SOON);
+    assert_eq!(get("min_size"), "1.0");
+    stage.output("rosnode kill /explore");
+    // No map has come that could be saved.
+    explore.expect_code(1, SOON);
+    // The next one keeps what was set, and reads the rest of what was told as nobody's wish.
+    let mut again = stage.explore("_config:=tour");
+    again.expect_log("~min_size is 1", SOON);
+    eventually(SOON, listed, || again.log());
+    let all = tool("get /explore");
+    assert!(all.contains("'min_size': 1.0") && all.contains("'reconsider_period': 1.0"), "{all}");
+    again.signal("INT");
+    again.expect_code(1, SOON);
 }
 
 fn rosbag(stage: &Stage) {

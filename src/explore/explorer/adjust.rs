@@ -1,8 +1,9 @@
-//! What may be exchanged while a run goes on: the areas, the strategy, the planner, and what is
-//! left alone.
+//! What may be exchanged while a run goes on: a part of the settings, the areas, the strategy, the
+//! planner, and what is left alone.
 
 use super::super::blacklist::Blacklisted;
 use super::super::record::EndReason;
+use super::super::settings::{DetectorSettings, ExplorerSettings, SettingsError};
 use super::super::state::State;
 use super::Explorer;
 use crate::geometry::{Areas, Polygon};
@@ -10,6 +11,38 @@ use crate::planning::GlobalPlanner;
 use crate::selection::GoalSelector;
 
 impl Explorer {
+    /// Goes by other settings from now on, as far as they can be exchanged on the way: the
+    /// smallest frontier, `selection`, `goal`, `turns`, `taboo`, `patience`, `finish` and
+    /// `return_to_start`. All others stay. Where what is chosen may be another goal now, it decides
+    /// anew; a goal that is given up for that is not blamed.
+    ///
+    /// # Errors
+    /// [`SettingsError`] when a setting cannot be; then nothing is changed.
+    pub fn adjust(&mut self, wanted: &ExplorerSettings) -> Result<(), SettingsError> {
+        let old = &self.settings;
+        let new = ExplorerSettings {
+            thresholds: old.thresholds,
+            detector: DetectorSettings { min_size_m: wanted.detector.min_size_m, ..old.detector },
+            planner: old.planner,
+            region: old.region.clone(),
+            no_go: old.no_go.clone(),
+            ..wanted.clone()
+        };
+        new.validate()?;
+        let chooses_otherwise = new.detector != old.detector
+            || new.selection != old.selection
+            || new.goal != old.goal
+            || new.taboo != old.taboo
+            || new.finish != old.finish;
+        self.lookout.adjust(old, &new);
+        self.blacklist.set_config(new.taboo);
+        self.settings = new;
+        if chooses_otherwise {
+            self.decide_anew();
+        }
+        Ok(())
+    }
+
     /// Keeps to these areas from now on. A goal under way is given up for that, and not blamed.
     pub fn set_areas(&mut self, areas: Areas) {
         if areas == self.settings.areas() {

@@ -9,7 +9,7 @@ use crate::explore::{Areas, Blacklisted};
 use crate::geometry::{Point, Polygon, PolygonError};
 use crate::ros::bell::Bell;
 use crate::ros::convert::seconds;
-use crate::ros::display::{AreaMarkers, ShownAreas};
+use crate::ros::display::{AreaMarkers, ShownAreas, no_markers};
 use crate::ros::map_feed::MapReader;
 use crate::ros::msg::geometry_msgs::{PointStamped, PolygonStamped};
 use crate::ros::msg::std_msgs::Header;
@@ -19,6 +19,7 @@ use crate::ros::transforms::Transforms;
 use crate::ros::{Feed, Node, Publisher};
 pub use asked::{Asked, Wish};
 use nalgebra::Point3;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -47,7 +48,8 @@ struct Shared {
     transforms: Arc<Transforms>,
     maps: MapReader,
     bell: Arc<Bell>,
-    markers: Option<Publisher<MarkerArray>>,
+    markers: Publisher<MarkerArray>,
+    shows_markers: AtomicBool,
     drawn: Mutex<Drawn>,
 }
 
@@ -64,7 +66,6 @@ impl AreaInputs {
     /// # Errors
     /// [`ExploreNodeError`] when the topic cannot be offered.
     pub fn listen(node: &Node, settings: &Settings, connected: &Connected) -> Result<Self, ExploreNodeError> {
-        let markers = if settings.params.visualize { Some(node.publish_latched("~areas")?) } else { None };
         let drawn = Drawn {
             areas: settings.preset.explorer.areas(),
             is_new: false,
@@ -80,7 +81,8 @@ impl AreaInputs {
             transforms: Arc::clone(&connected.transforms),
             maps: connected.maps.clone(),
             bell: Arc::clone(&connected.bell),
-            markers,
+            markers: node.publish_latched("~areas")?,
+            shows_markers: AtomicBool::new(settings.params.visualize),
             drawn: Mutex::new(drawn),
         });
         let polygons = |topic: &str, wish: Wish| {
@@ -127,6 +129,16 @@ impl AreaInputs {
     /// Shows the areas, as in a frame that has become known.
     pub fn show(&self) {
         self.shared.show(&mut self.shared.lock());
+    }
+
+    /// Markers are shown or taken away.
+    pub fn show_markers(&self, shows: bool) {
+        let mut drawn = self.shared.lock();
+        if self.shared.shows_markers.swap(shows, Ordering::Relaxed) && !shows {
+            drawn.markers = AreaMarkers::default();
+            let _ = self.shared.markers.send(no_markers());
+        }
+        self.shared.show(&mut drawn);
     }
 
     /// Shows what failed, where that is news.
@@ -254,14 +266,14 @@ impl Shared {
     }
 
     fn show(&self, drawn: &mut Drawn) {
-        let (Some(publisher), frame) = (&self.markers, self.map_frame()) else { return };
-        if frame.is_empty() {
+        let frame = self.map_frame();
+        if frame.is_empty() || !self.shows_markers.load(Ordering::Relaxed) {
             return;
         }
         let Drawn { areas, region, no_go, blacklisted, markers, .. } = drawn;
         let (region_corners, no_go_corners) = (region.corners(), no_go.corners());
         let input = ShownAreas { areas, region_corners, no_go_corners, blacklisted };
         // Nobody who listens is no error of ours.
-        let _ = publisher.send(markers.update(&input, &frame, self.node.now_s()));
+        let _ = self.markers.send(markers.update(&input, &frame, self.node.now_s()));
     }
 }

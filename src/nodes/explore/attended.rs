@@ -1,6 +1,7 @@
 //! A run of an exploration: what is asked for is done, what happens is shown, and what must outlive
 //! a crash is kept.
 
+use super::live_params::LiveParams;
 use super::operator::{Matter, Operator};
 use super::rules::Stage;
 use super::session::{Activity, SessionKeeper};
@@ -35,7 +36,7 @@ impl Recall {
         self.last = now;
         match now {
             Recalled::Below => {
-                self.log.info("the map of the session agrees with the one that comes: what was explored stays so")
+                self.log.info("the map of the session agrees with the one that comes: what was explored stays so");
             }
             Recalled::Contradicts => {
                 self.log.warn(
@@ -60,11 +61,13 @@ pub struct Attended<'a, 'b> {
     pub keeper: &'a mut SessionKeeper,
     /// Looks after the map of an earlier session.
     pub recall: &'a mut Recall,
+    /// Parameters that may change.
+    pub live: &'a LiveParams,
 }
 
 impl Watcher<RosRobot> for Attended<'_, '_> {
     fn before_step(&mut self, robot: &RosRobot, explorer: &mut Explorer, observation: &Observation) {
-        let Self { operator, watcher, keeper, recall } = self;
+        let Self { operator, watcher, keeper, recall, live } = self;
         let stage = match () {
             () if explorer.is_returning() => Stage::Returning,
             () if robot.has_begun() => Stage::Exploring,
@@ -73,6 +76,7 @@ impl Watcher<RosRobot> for Attended<'_, '_> {
         let explain = || watcher.explanation();
         let now_s = observation.stamp_s;
         operator.serve(&mut Matter { stage, explorer: Some(explorer), now_s, explain: &explain });
+        watcher.apply_news(live, operator, explorer);
         recall.look(watcher, explorer);
         watcher.look(robot, explorer, now_s);
         let activity = if operator.is_paused() { Activity::Paused } else { Activity::Exploring };

@@ -14,6 +14,7 @@ use crate::ros::robot_map::{CostmapFeed, RobotMap};
 use crate::ros::scan_feed::ScanFeed;
 use crate::ros::transforms::Transforms;
 use crate::ros::troubles::Troubles;
+use crate::ros::tuning::{Tuned, Tuning};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
@@ -33,6 +34,8 @@ pub struct Connected {
     pub drives_itself: bool,
     /// What is wrong now.
     pub troubles: Troubles,
+    /// What of the robot may change while it drives.
+    pub tuning: Tuning,
     /// Cancels the goal under way, for the end of a node that hangs.
     pub cancel: Box<dyn FnOnce() + Send>,
 }
@@ -59,9 +62,14 @@ pub fn connect(
     let move_base = if drives_itself { None } else { Some(MoveBase::connect(node, &params.move_base, &bell)?) };
     let body = robot.body();
     let navigator = preset.navigator(&body);
+    let tuning = Tuning::new(Tuned {
+        transform_tolerance_s: params.transform_tolerance,
+        yield_s: params.yield_to_others,
+        clear_costmaps: params.clear_costmaps,
+    });
     let pilot_config = PilotConfig {
         base_frame: params.base_frame.clone(),
-        transform_tolerance_s: params.transform_tolerance,
+        tuning: tuning.clone(),
         control_period_s: navigation.navigator.control_period_s,
         body,
         drives_to_goals: drives_itself,
@@ -76,16 +84,15 @@ pub fn connect(
         bell: Arc::clone(&bell),
         drives_itself,
         troubles: troubles.clone(),
+        tuning: tuning.clone(),
         cancel: canceller(move_base.as_ref()),
     };
     let config = RosRobotConfig {
         base_frame: params.base_frame.clone(),
-        transform_tolerance_s: params.transform_tolerance,
+        tuning,
         tick_period_s: 1.0 / params.tick_rate,
         turn_by_goals: params.turn_by == TurnBy::MoveBase,
         back_off: params.back_off,
-        clear_costmaps: params.clear_costmaps,
-        yield_s: params.yield_to_others,
     };
     let parts = Connections {
         map: RobotMap::new(map, costmap, explorer.thresholds, robot.inflation()),

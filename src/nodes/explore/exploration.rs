@@ -3,6 +3,7 @@
 use super::areas::AreaInputs;
 use super::attended::{Attended, Recall};
 use super::connect::Connected;
+use super::live_params::LiveParams;
 use super::operator::Operator;
 use super::outputs::Outputs;
 use super::session::{Activity, Session, SessionKeeper};
@@ -37,6 +38,8 @@ pub struct Beginning<'a> {
     pub outputs: &'a Outputs,
     /// Where the robot may be.
     pub inputs: &'a AreaInputs,
+    /// What may have changed since.
+    pub live: &'a LiveParams,
 }
 
 impl<'a> Beginning<'a> {
@@ -51,13 +54,9 @@ impl<'a> Beginning<'a> {
         home: Option<Pose>,
         earlier: Option<&Session>,
     ) -> Result<Exploration<'a>, ExploreNodeError> {
-        let Self { node, settings, connected, outputs, inputs } = self;
+        let Self { node, settings, connected, outputs, inputs, live } = self;
         let Settings { preset, robot: body, .. } = settings;
-        let mut wanted = preset.explorer.clone();
-        if let Some(order) = operator.order() {
-            wanted.patience.time_limit_s = order.time_limit_s.or(wanted.patience.time_limit_s);
-            wanted.return_to_start |= order.return_home;
-        }
+        let wanted = operator.wanted(&live.now().preset.explorer);
         let mut explorer = Explorer::new(wanted, &body.traits())?;
         let areas = operator.areas(inputs.current());
         robot.set_areas(&areas);
@@ -86,10 +85,11 @@ impl Exploration<'_> {
         operator: &mut Operator,
         keeper: &mut SessionKeeper,
         recall: &mut Recall,
+        live: &LiveParams,
     ) -> End {
         let Self { explorer, watcher } = self;
         watcher.begin(explorer);
-        let end = explore(robot, explorer, &mut Attended { operator, watcher, keeper, recall });
+        let end = explore(robot, explorer, &mut Attended { operator, watcher, keeper, recall, live });
         robot.stop();
         let activity = match end.reason {
             // A signal ends the process, and not what it was about.

@@ -8,6 +8,7 @@ mod controls;
 mod desk;
 mod explain;
 mod exploration;
+mod live_params;
 mod operator;
 mod outputs;
 mod rules;
@@ -29,6 +30,7 @@ use connect::connect;
 use controls::Controls;
 use desk::Desk;
 use exploration::{Beginning, Exploration};
+use live_params::LiveParams;
 use operator::{Matter, Next, Operator};
 use outputs::Outputs;
 use rules::Stage;
@@ -91,6 +93,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     let (mut robot, mut connected) = connect(node, &settings, earlier_map)?;
     let saver = Arc::new(MapSaver::new(&params.map_file, connected.maps.clone(), node.log(), &connected.troubles));
     saver.check();
+    let live = LiveParams::offer(node, &settings, &connected)?;
     let outputs = Outputs::offer(node, &settings, &connected, &saver)?;
     let desk = Desk::new(&connected.bell);
     let action = ExploreAction::offer(node, &desk, &connected, Box::new(outputs.teller()))?;
@@ -133,7 +136,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
     let mut session = session;
     let mut last: Option<Exploration<'_>> = None;
     loop {
-        let Some(next) = wait_for_work(node, &mut operator, last.as_mut(), &outputs, &areas) else {
+        let Some(next) = wait_for_work(node, &mut operator, last.as_mut(), &outputs, &areas, &live) else {
             let code = u8::from(saver.save().is_err() || node.has_failed());
             settle(code);
             return Ok(code);
@@ -147,13 +150,13 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
             }
             (_, earlier) => {
                 let home = earlier.and_then(|earlier| earlier.explorer.start_pose());
-                let begin =
-                    Beginning { node, settings: &settings, connected: &connected, outputs: &outputs, inputs: &areas };
+                let (connected, outputs, inputs, live) = (&connected, &outputs, &areas, &live);
+                let begin = Beginning { node, settings: &settings, connected, outputs, inputs, live };
                 begin.explore(&robot, &operator, home, session.take().as_ref())?
             }
         };
         let exploration = last.insert(exploration);
-        let end = exploration.run(node, &mut robot, &mut operator, &mut keeper, &mut recall);
+        let end = exploration.run(node, &mut robot, &mut operator, &mut keeper, &mut recall, &live);
         let saved = match operator.order().filter(|order| !order.map_file.is_empty()) {
             Some(order) => saver.save_elsewhere(&order.map_file).map(Some),
             None => saver.save(),
@@ -169,7 +172,7 @@ fn explore_until(node: &Node, settle: impl Fn(u8)) -> Result<u8, ExploreNodeErro
             () if !node.is_ok() || end.reason.is_success() => 0,
             () => 3,
         };
-        if params.exit_when_done && !operator.has_work() || !node.is_ok() {
+        if live.now().node.exit_when_done && !operator.has_work() || !node.is_ok() {
             settle(code);
             return Ok(code);
         }
@@ -184,6 +187,7 @@ fn wait_for_work(
     mut last: Option<&mut Exploration<'_>>,
     outputs: &Outputs,
     areas: &AreaInputs,
+    live: &LiveParams,
 ) -> Option<Next> {
     operator.wait_for_work(node, |operator| {
         if areas.take_new().is_some() && last.is_some() {
@@ -194,6 +198,8 @@ fn wait_for_work(
             Some(Exploration { explorer, watcher }) => (Some(explorer), Some(&*watcher)),
             None => (None, None),
         };
+        let mut explorer = explorer;
+        live.apply_news(operator, explorer.as_deref_mut(), outputs, areas);
         let explain = || watcher.map_or_else(|| outputs.status().message, NodeWatcher::explanation);
         let now_s = watcher.map_or(0.0, NodeWatcher::now_s);
         operator.serve(&mut Matter { stage, explorer, now_s, explain: &explain });

@@ -4,7 +4,7 @@ use super::action::{ExploreAction, Outcome};
 use super::connect::Connected;
 use super::desk::{Answer, Desk, Order, Pending, Request};
 use super::rules::{Effect, Rule, Stage, rule};
-use crate::explore::{Areas, End, EndReason, Explorer, STOPPED};
+use crate::explore::{Areas, End, EndReason, Explorer, ExplorerSettings, STOPPED};
 use crate::ros::Node;
 use crate::ros::actionlib::is_meant;
 use crate::ros::display::status_sentence;
@@ -94,6 +94,17 @@ impl Operator {
             Some(order) => Areas { region: order.region.clone(), ..current },
             None => current,
         }
+    }
+
+    /// The settings of an exploration that is under way or begins now: an order has its own limit
+    /// and end.
+    pub fn wanted(&self, settings: &ExplorerSettings) -> ExplorerSettings {
+        let mut wanted = settings.clone();
+        if let Some(order) = &self.order {
+            wanted.patience.time_limit_s = order.time_limit_s.or(wanted.patience.time_limit_s);
+            wanted.return_to_start |= order.return_home;
+        }
+        wanted
     }
 
     /// Whether the exploration rests.

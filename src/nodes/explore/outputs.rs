@@ -7,7 +7,7 @@ use crate::explore::{Counts, Decision, DecisionRecord, Explorer, Phase, TimeSpen
 use crate::geometry::Path;
 use crate::ros::convert;
 use crate::ros::display::{
-    FrontierMarkers, StatusInput, diagnostics, frontier_array, region_message, status, status_sentence,
+    FrontierMarkers, StatusInput, diagnostics, frontier_array, no_markers, region_message, status, status_sentence,
 };
 use crate::ros::log::Level;
 use crate::ros::map_feed::MapReader;
@@ -32,7 +32,8 @@ pub struct Outputs {
     node: Node,
     /// Name of the preset.
     pub preset: String,
-    frontiers: Option<Publisher<MarkerArray>>,
+    frontiers: Publisher<MarkerArray>,
+    shows_markers: AtomicBool,
     array: Publisher<FrontierArray>,
     goal: Publisher<PoseStamped>,
     path: Publisher<nav_msgs::Path>,
@@ -84,7 +85,8 @@ impl Outputs {
         let (theirs, saver) = (Arc::clone(&teller), Arc::clone(saver));
         std::thread::spawn(move || tell(&theirs, &saver));
         Ok(Self {
-            frontiers: if settings.params.visualize { Some(node.publish_latched("~frontiers")?) } else { None },
+            frontiers: node.publish_latched("~frontiers")?,
+            shows_markers: AtomicBool::new(settings.params.visualize),
             array: node.publish_latched("~frontier_array")?,
             goal: node.publish_latched("~goal")?,
             path: node.publish_latched("~path")?,
@@ -101,9 +103,9 @@ impl Outputs {
     pub fn show_decision(&self, decision: &Decision, record: &DecisionRecord, resolution_m: f64, frame: &str) {
         let stamp_s = self.node.now_s();
         // Nobody who listens is no error of ours.
-        if let Some(frontiers) = &self.frontiers {
+        if self.shows_markers.load(Ordering::Relaxed) {
             let mut markers = self.markers.lock().unwrap_or_else(PoisonError::into_inner);
-            let _ = frontiers.send(markers.update(record, &decision.frontiers, resolution_m, frame, stamp_s));
+            let _ = self.frontiers.send(markers.update(record, &decision.frontiers, resolution_m, frame, stamp_s));
         }
         let _ = self.array.send(frontier_array(record, frame, stamp_s));
         if let Some(goal) = &record.goal {
@@ -111,6 +113,14 @@ impl Outputs {
         }
         if let Some(path) = &decision.path {
             self.show_path(path, frame);
+        }
+    }
+
+    /// Markers are shown from the next decision on, or taken away now.
+    pub fn show_markers(&self, shows: bool) {
+        if self.shows_markers.swap(shows, Ordering::Relaxed) && !shows {
+            *self.markers.lock().unwrap_or_else(PoisonError::into_inner) = FrontierMarkers::default();
+            let _ = self.frontiers.send(no_markers());
         }
     }
 

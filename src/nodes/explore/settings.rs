@@ -1,6 +1,6 @@
 //! The parameters of `explore_node` with all that they name: preset and robot, checked.
 
-use crate::config::{NodeParams, NodeParamsError, Preset, RobotConfig};
+use crate::config::{LiveError, NodeParams, NodeParamsError, Preset, RobotConfig};
 use crate::explore::SettingsError;
 use crate::io::{SettingsFileError, load_preset, load_robot};
 use crate::ros::rivals::RivalError;
@@ -42,6 +42,9 @@ pub enum ExploreNodeError {
     /// Another explorer drives the robot.
     #[error(transparent)]
     Rival(#[from] RivalError),
+    /// The parameters that may change while it runs cannot be told.
+    #[error(transparent)]
+    Live(#[from] LiveError),
     /// The settings contradict each other.
     #[error(transparent)]
     Settings(#[from] SettingsError),

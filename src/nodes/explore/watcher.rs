@@ -3,6 +3,8 @@
 
 use super::areas::AreaInputs;
 use super::explain::explain;
+use super::live_params::LiveParams;
+use super::operator::Operator;
 use super::outputs::Outputs;
 use super::session::{Activity, Session};
 use crate::explore::{Areas, Counts, Decision, DecisionRecord, End, Explorer, Phase};
@@ -87,6 +89,11 @@ impl<'a> NodeWatcher<'a> {
     /// Other areas are to be kept to.
     pub fn exchange_areas(&self, areas: Areas) {
         self.inputs.exchange(areas);
+    }
+
+    /// Has changes of parameters done.
+    pub fn apply_news(&self, live: &LiveParams, operator: &Operator, explorer: &mut Explorer) {
+        live.apply_news(operator, Some(explorer), self.outputs, self.inputs);
     }
 
     /// What is to be written down of the exploration.

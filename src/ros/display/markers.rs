@@ -83,6 +83,12 @@ impl Shown {
     }
 }
 
+/// Takes all markers of a topic away.
+#[must_use]
+pub fn no_markers() -> MarkerArray {
+    MarkerArray { markers: vec![Marker { action: i32::from(Marker::DELETEALL), ..Marker::default() }] }
+}
+
 /// Chosen green, possible blue, left alone red, out of reach grey, elsewhere violet.
 const fn color(status: CandidateStatus) -> ColorRGBA {
     let (r, g, b) = match status {

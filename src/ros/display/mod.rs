@@ -7,5 +7,5 @@ mod status;
 
 pub use areas::{AreaMarkers, ShownAreas};
 pub use frontier_array::frontier_array;
-pub use markers::FrontierMarkers;
+pub use markers::{FrontierMarkers, no_markers};
 pub use status::{StatusInput, diagnostics, region_message, status, status_sentence};

@@ -65,7 +65,8 @@ impl RosRobot {
     fn yields(&mut self, ros_s: f64) -> bool {
         let Some(move_base) = &self.parts.move_base else { return false };
         let troubles = &self.parts.troubles;
-        match move_base.stranger(ros_s, self.config.yield_s) {
+        let yield_s = self.config.tuning.now().yield_s;
+        match move_base.stranger(ros_s, yield_s) {
             Stranger::None => {
                 if troubles.clear(Trouble::Stranger) {
                     self.node.log().info("the goal of somebody else is over: going on");
@@ -74,8 +75,7 @@ impl RosRobot {
             }
             Stranger::Drives { goal } => {
                 let text = format!(
-                    "a goal of somebody else is under way ({goal}): resting until it ends, at most {} s",
-                    self.config.yield_s
+                    "a goal of somebody else is under way ({goal}): resting until it ends, at most {yield_s} s"
                 );
                 troubles.report(Trouble::Stranger, Level::Info, text);
                 true
@@ -83,8 +83,7 @@ impl RosRobot {
             Stranger::TakesTooLong { goal } => {
                 if troubles.clear(Trouble::Stranger) {
                     let text = format!(
-                        "the goal of somebody else ({goal}) takes longer than {} s: going on all the same",
-                        self.config.yield_s
+                        "the goal of somebody else ({goal}) takes longer than {yield_s} s: going on all the same"
                     );
                     self.node.log().warn(text);
                 }
@@ -179,7 +178,8 @@ impl RosRobot {
     }
 
     fn look_up(&self, ros_s: f64) -> Result<Pose, PoseError> {
-        let super::RosRobotConfig { base_frame, transform_tolerance_s, .. } = &self.config;
-        self.parts.transforms.robot(self.parts.map.frame(), base_frame, ros_s, *transform_tolerance_s)
+        let super::RosRobotConfig { base_frame, tuning, .. } = &self.config;
+        let tolerance_s = tuning.now().transform_tolerance_s;
+        self.parts.transforms.robot(self.parts.map.frame(), base_frame, ros_s, tolerance_s)
     }
 }

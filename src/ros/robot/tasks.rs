@@ -74,7 +74,7 @@ impl RosRobot {
         if let Some(move_base) = &mut self.parts.move_base {
             move_base.cancel();
         }
-        if let (Some(move_base), true) = (&self.parts.move_base, self.config.clear_costmaps)
+        if let (Some(move_base), true) = (&self.parts.move_base, self.config.tuning.now().clear_costmaps)
             && !matches!(self.task, Task::Pilot)
         {
             move_base.clear_costmaps();
@@ -114,7 +114,7 @@ impl RosRobot {
 
     /// Asks move_base to forget obstacles that are no more, when it gave a goal up.
     pub(super) fn recover(&self, navigation: &Navigation) {
-        let (Some(move_base), true) = (&self.parts.move_base, self.config.clear_costmaps) else { return };
+        let (Some(move_base), true) = (&self.parts.move_base, self.config.tuning.now().clear_costmaps) else { return };
         if let NavigationState::Aborted(why) = &navigation.state {
             self.node.log().warn(format_args!("move_base gave the goal up: {why}"));
             move_base.clear_costmaps();
