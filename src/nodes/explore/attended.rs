@@ -35,7 +35,7 @@ impl Recall {
         self.last = now;
         match now {
             Recalled::Below => {
-                self.log.info("the map of the session agrees with the one that comes: what was explored stays so")
+                self.log.info("the map of the session agrees with the one that comes: what was explored stays so");
             }
             Recalled::Contradicts => {
                 self.log.warn(
