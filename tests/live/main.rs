@@ -8,6 +8,12 @@ mod controls;
 mod ctl;
 mod doctor;
 mod fake_publisher;
+mod faults_driver;
+mod faults_files;
+mod faults_maps;
+mod faults_network;
+mod faults_poses;
+mod faults_signals;
 mod peers;
 mod relay;
 mod rig;
@@ -83,7 +89,15 @@ fn main() {
 
 fn all() -> impl Iterator<Item = &'static Test> {
     let own = TESTS.iter().chain(areas::TESTS).chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
-    own.chain(session::TESTS).chain(doctor::TESTS).chain(ctl::TESTS)
+    own.chain(session::TESTS)
+        .chain(doctor::TESTS)
+        .chain(ctl::TESTS)
+        .chain(faults_maps::TESTS)
+        .chain(faults_driver::TESTS)
+        .chain(faults_poses::TESTS)
+        .chain(faults_files::TESTS)
+        .chain(faults_network::TESTS)
+        .chain(faults_signals::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {
