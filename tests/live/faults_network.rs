@@ -1,6 +1,7 @@
 //! Peers that do not keep to the protocols: silence, garbage, claims that no memory holds, a
 //! subscriber that never reads; and a master that is restarted.
 
+use crate::fake_publisher::FakePublisher;
 use crate::peers::MASTER;
 use crate::rig::{DEADLINE, Heard, Process, eventually};
 use crate::{CHILD, EXACT, SOON, Test, World};
@@ -15,6 +16,7 @@ use std::time::{Duration, Instant};
 pub const TESTS: &[Test] = &[
     ("silent_connections_on_every_port_hold_nobody_up", silent_connections),
     ("garbage_and_huge_claims_on_the_ports_of_topics_end_nothing", odd_topics),
+    ("a_publisher_that_claims_four_gigabytes_ends_nothing", huge_publisher),
     ("requests_that_no_server_survives_are_survived_by_the_session", odd_requests),
     ("a_subscriber_that_never_reads_holds_nobody_up", never_reads),
     ("a_master_that_is_killed_and_restarted_ends_nothing", restarted_master),
@@ -147,6 +149,21 @@ fn odd_topics(world: &World) {
     eventually(SOON, || status.all().len() > heard + 1, || explore.log());
     expect_complete(world, &mut sim, &mut explore);
     assert!(!explore.log().contains("panicked"), "{}", explore.log());
+}
+
+/// What one publisher claims is lost, and nothing else.
+fn huge_publisher(world: &World) {
+    let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
+    let master = std::env::var("ROS_MASTER_URI").unwrap();
+    let huge = FakePublisher::telling(&master, "/explore/resume", vec![0xff; 8]);
+    let mut sim = world.simulate_kindly(&["_speed:=4"]);
+    let mut explore = world.explore(&[]);
+    eventually(SOON, || huge.subscribers() > 0, || "nobody subscribes".to_owned());
+    status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
+    let memory = std::fs::read_to_string(format!("/proc/{}/status", explore.id())).unwrap();
+    let resident_kb: u64 = between(&memory, "VmRSS", ":", "kB").trim().parse().unwrap();
+    assert!(resident_kb < 500_000, "{resident_kb} kB");
+    expect_complete(world, &mut sim, &mut explore);
 }
 
 /// A huge claim and a deep nest on the port of XML-RPC: the process may end of it. Then one that is
