@@ -159,4 +159,5 @@ pub mod run;
 pub mod scan;
 pub mod selection;
 pub mod sim;
+pub mod text;
 pub mod tf;

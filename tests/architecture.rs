@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 const ROOMS: &[(&str, &[&[&str]])] = &[
     // Floor 0: data.
     ("range", &[]),
+    ("text", &[]),
     ("geometry", &[]),
     ("scan", &[&["geometry"]]),
     ("tf", &[&["geometry"]]),
@@ -47,7 +48,7 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
     ("nodes", &[FLOOR_0, FLOOR_1, FLOOR_2, &["io", "sim", "ros", "run"]]),
 ];
 
-const FLOOR_0: &[&str] = &["range", "geometry", "scan", "grid", "bits", "tf"];
+const FLOOR_0: &[&str] = &["range", "text", "geometry", "scan", "grid", "bits", "tf"];
 const FLOOR_1: &[&str] = &["frontier", "selection", "planning", "control", "matching"];
 const FLOOR_2: &[&str] = &["robot", "navigation", "explore", "config"];
 

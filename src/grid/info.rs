@@ -6,17 +6,18 @@ use serde::{Deserialize, Serialize};
 
 /// The most cells a grid may have: 16384 x 16384.
 pub const MAX_CELLS: u64 = 1 << 28;
-
+/// How large a cell may be, metres: what lies beyond is no map of a place.
+const CELL_M: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
+/// The farthest that a grid may lie, metres: twice round the earth.
+const FARTHEST_M: f64 = 1e8;
 /// So far a cell may be off and be the same, as a share of it: origins are computed anew.
 const SAME_CELL: f64 = 1e-3;
 /// Grids farther apart than this share no lattice: no cell of either overflows when it is moved.
 const FARTHEST_CELLS: f64 = 1e6;
 /// So much resolutions (as a share) and rotations (radians) of one lattice may differ.
 const SAME_AXES: f64 = 1e-6;
-
 /// Where in a cell goals lie, from its corner along both axes.
 const GOAL_IN_CELL: f64 = 0.55;
-
 /// Offsets to the four cells that share a side, in a fixed order.
 pub const NEIGHBOURS_4: [(i32, i32); 4] = [(1, 0), (-1, 0), (0, 1), (0, -1)];
 
@@ -101,7 +102,7 @@ impl Cell {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GridInfoError {
     /// The edge length of a cell is not usable.
-    #[error("resolution {0} m per cell: must be a finite number > 0")]
+    #[error("resolution {0} m per cell: must be within 0.000001 to 1000")]
     Resolution(f64),
     /// No cells, or more than fit in memory.
     #[error("a grid of {width} x {height} cells: must have at least 1 and at most {MAX_CELLS} cells")]
@@ -111,8 +112,8 @@ pub enum GridInfoError {
         /// Rows.
         height: u32,
     },
-    /// An origin that is not finite.
-    #[error("grid origin ({0}, {1}, {2}): must be finite metres and radians")]
+    /// An origin that is not finite, or nowhere.
+    #[error("grid origin ({0}, {1}, {2}): must be metres, at most {FARTHEST_M}, and finite radians")]
     Origin(f64, f64, f64),
 }
 
@@ -132,17 +133,17 @@ impl GridInfo {
     /// has its outer corner at `origin_in_map` and whose axes are turned by its yaw.
     ///
     /// # Errors
-    /// [`GridInfoError`] for a size of no cells or more than [`MAX_CELLS`], a
-    /// resolution that is not a positive number, an origin that is not finite.
+    /// [`GridInfoError`] for a size of no cells or more than [`MAX_CELLS`], cells of
+    /// no size that can be, an origin that is not finite or farther than any place.
     pub fn new(width: u32, height: u32, resolution_m: f64, origin_in_map: Pose) -> Result<Self, GridInfoError> {
         let cells = u64::from(width) * u64::from(height);
         if cells == 0 || cells > MAX_CELLS {
             return Err(GridInfoError::Size { width, height });
         }
-        if !(resolution_m.is_finite() && resolution_m > 0.0) {
+        if !CELL_M.contains(&resolution_m) {
             return Err(GridInfoError::Resolution(resolution_m));
         }
-        if !origin_in_map.is_finite() {
+        if !origin_in_map.is_finite() || origin_in_map.x.abs().max(origin_in_map.y.abs()) > FARTHEST_M {
             return Err(GridInfoError::Origin(origin_in_map.x, origin_in_map.y, origin_in_map.yaw));
         }
         let (sin_yaw, cos_yaw) = origin_in_map.yaw.sin_cos();

@@ -29,18 +29,6 @@ pub fn clear_stale(path: &Path) -> usize {
     entries.flatten().filter(is_stale).filter(|entry| std::fs::remove_file(entry.path()).is_ok()).count()
 }
 
-/// Reads a file of text, if there is one.
-///
-/// # Errors
-/// What the file system says against it.
-pub fn read_if_there(path: &Path) -> io::Result<Option<String>> {
-    match std::fs::read_to_string(path) {
-        Ok(text) => Ok(Some(text)),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(error),
-    }
-}
-
 /// Makes a folder, and those above it, unless it is there.
 ///
 /// # Errors
@@ -85,8 +73,7 @@ mod tests {
         }
         assert_eq!(clear_stale(&dir.path().join("a.txt")), 1);
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2);
-        assert_eq!(read_if_there(&dir.path().join("a.txt")).unwrap().as_deref(), Some("x"));
-        assert_eq!(read_if_there(&dir.path().join("b.txt")).unwrap(), None);
+        assert_eq!(fs::read_to_string(dir.path().join("a.txt")).unwrap(), "x");
     }
 
     #[test]

@@ -102,14 +102,15 @@ fn saved_paths(path: &Path, image: MapImage) -> Result<(SavedPaths, String), Map
     if stem.is_empty() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
         return Err(nameless());
     }
-    let is_special = std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
-    if is_special {
-        let (found, expected) = ("a device or a pipe", "a name for the two files of a map");
-        return Err(MapError::NotAFile { path: path.to_path_buf(), found, expected });
-    }
     let yaml_name = if stem == name { format!("{stem}.yaml") } else { name.to_owned() };
     let image_name = format!("{stem}.{}", image.extension());
     let paths = SavedPaths { yaml: path.with_file_name(yaml_name), image: path.with_file_name(&image_name) };
+    // A pipe without a reader would keep its writer waiting for ever.
+    let is_special = |path: &Path| std::fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+    if let Some(special) = [path, &paths.image, &paths.yaml].into_iter().find(|path| is_special(path)) {
+        let (found, expected) = ("a device or a pipe", "a name for the two files of a map");
+        return Err(MapError::NotAFile { path: special.to_path_buf(), found, expected });
+    }
     Ok((paths, image_name))
 }
 
@@ -236,6 +237,18 @@ mod tests {
         assert!(message.contains("cannot write /nowhere/x/map.pgm"), "{message}");
         let message = save_map(Path::new("/dev/null"), &grid, &SaveOptions::default()).unwrap_err().to_string();
         assert_eq!(message, "/dev/null is a device or a pipe: must be a name for the two files of a map");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_in_the_place_of_an_image_is_refused_and_not_waited_for() {
+        let dir = tempfile::tempdir().unwrap();
+        let pipe = dir.path().join("lab.pgm");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let grid = grid(2, 1.0, Pose::default(), &[0, 100]);
+        let saved = save_map(&dir.path().join("lab"), &grid, &SaveOptions::default()).unwrap_err().to_string();
+        assert!(saved.contains("lab.pgm is a device or a pipe"), "{saved}");
+        assert!(check_map_path(&dir.path().join("lab"), MapImage::Pgm).is_err());
     }
 
     #[test]

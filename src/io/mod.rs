@@ -14,13 +14,15 @@ mod map_save;
 mod map_yaml;
 mod pgm;
 mod settings;
+mod text_file;
 mod worlds;
 
-pub use atomic::{clear_stale, create_folder, read_if_there, write_atomic};
+pub use atomic::{clear_stale, create_folder, write_atomic};
 pub use atomic_file::AtomicFile;
 pub use error::MapError;
 pub use map_load::{LoadedMap, load_map};
 pub use map_save::{MapImage, SaveOptions, SavedPaths, check_map_path, save_map};
 pub use map_yaml::{MapMode, MapYaml};
 pub use settings::{SettingsFileError, file_stem, load_preset, load_robot};
+pub use text_file::{read_bytes, read_if_there, read_text};
 pub use worlds::{BUILT_IN_WORLDS, load_world};

@@ -1,5 +1,6 @@
 //! Presets and robots by name or by file.
 
+use super::text_file::read_text;
 use crate::config::{Preset, PresetError, RobotConfig, RobotConfigError, builtin_robot};
 use std::path::{Path, PathBuf};
 
@@ -87,6 +88,6 @@ fn read_if_file(name_or_file: &str) -> Result<Option<String>, SettingsFileError>
     if path.is_dir() {
         return Err(SettingsFileError::Directory(path.to_owned()));
     }
-    let text = std::fs::read_to_string(path);
+    let text = read_text(path);
     text.map(Some).map_err(|source| SettingsFileError::Read { path: path.to_owned(), source })
 }

@@ -2,6 +2,7 @@
 //! panic when nobody reads their output any more; these lines are dropped then.
 
 use super::msg::rosgraph_msgs::Log as LogMessage;
+use crate::text::printable;
 use rosrust::Publisher;
 use std::fmt::Display;
 use std::io::Write;
@@ -70,6 +71,7 @@ impl Log {
 
     fn say(&self, level: Level, text: &str) {
         *self.last.lock().unwrap_or_else(PoisonError::into_inner) = Some((level, text.to_owned()));
+        let text = &printable(text);
         let (word, number) = match level {
             Level::Info => (" INFO", LogMessage::INFO),
             Level::Warn => (" WARN", LogMessage::WARN),
@@ -81,7 +83,7 @@ impl Log {
             let line = LogMessage {
                 level: number,
                 name: self.name.to_string(),
-                msg: text.to_owned(),
+                msg: text.to_string(),
                 ..LogMessage::default()
             };
             let _ = rosout.send(line);
@@ -99,7 +101,8 @@ impl log::Log for Bridge {
 
     fn log(&self, record: &log::Record<'_>) {
         if self.enabled(record.metadata()) {
-            let _ = writeln!(std::io::stderr(), "[ WARN] [rosrust]: {}", record.args());
+            let text = record.args().to_string();
+            let _ = writeln!(std::io::stderr(), "[ WARN] [rosrust]: {}", printable(&text));
         }
     }
 

@@ -5,7 +5,7 @@ use std::net::{TcpListener, TcpStream};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-/// Publishes `std_msgs/Bool`, ten times a second to each connection.
+/// Publishes `std_msgs/Bool`, ten times a second to each connection, or what it is told to send.
 pub struct FakePublisher {
     connections: Arc<Mutex<Vec<TcpStream>>>,
 }
@@ -13,6 +13,11 @@ pub struct FakePublisher {
 impl FakePublisher {
     /// Registers with the master at an address.
     pub fn start(master: &str, topic: &str) -> Self {
+        Self::telling(master, topic, vec![1, 0, 0, 0, 1])
+    }
+
+    /// The same with these bytes for a message and its length.
+    pub fn telling(master: &str, topic: &str, bytes: Vec<u8>) -> Self {
         let slave = TcpListener::bind("127.0.0.1:0").unwrap();
         let data = TcpListener::bind("127.0.0.1:0").unwrap();
         let (uri, port) = (format!("http://{}/", slave.local_addr().unwrap()), data.local_addr().unwrap().port());
@@ -32,7 +37,7 @@ impl FakePublisher {
         std::thread::spawn(move || {
             loop {
                 std::thread::sleep(Duration::from_millis(100));
-                talking.lock().unwrap().retain_mut(|stream| stream.write_all(&[1, 0, 0, 0, 1]).is_ok());
+                talking.lock().unwrap().retain_mut(|stream| stream.write_all(&bytes).is_ok());
             }
         });
         let params = ["/fake", topic, "std_msgs/Bool", &uri];
@@ -53,6 +58,11 @@ impl FakePublisher {
         stream.read_to_string(&mut answer).unwrap();
         assert!(answer.contains("methodResponse"), "{answer}");
         Self { connections }
+    }
+
+    /// How many subscribers have met it and are still there.
+    pub fn subscribers(&self) -> usize {
+        self.connections.lock().unwrap().len()
     }
 
     /// Cuts all connections, as a network does.

@@ -8,6 +8,12 @@ mod controls;
 mod ctl;
 mod doctor;
 mod fake_publisher;
+mod faults_driver;
+mod faults_files;
+mod faults_maps;
+mod faults_network;
+mod faults_poses;
+mod faults_signals;
 mod live_params;
 mod peers;
 mod relay;
@@ -84,7 +90,16 @@ fn main() {
 
 fn all() -> impl Iterator<Item = &'static Test> {
     let own = TESTS.iter().chain(areas::TESTS).chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
-    own.chain(session::TESTS).chain(doctor::TESTS).chain(ctl::TESTS).chain(live_params::TESTS)
+    own.chain(session::TESTS)
+        .chain(doctor::TESTS)
+        .chain(ctl::TESTS)
+        .chain(live_params::TESTS)
+        .chain(faults_maps::TESTS)
+        .chain(faults_driver::TESTS)
+        .chain(faults_poses::TESTS)
+        .chain(faults_files::TESTS)
+        .chain(faults_network::TESTS)
+        .chain(faults_signals::TESTS)
 }
 
 fn in_own_process(name: &str) -> Result<(), Failed> {

@@ -19,8 +19,16 @@ pub struct Relay<T: rosrust::Message> {
 
 impl<T: rosrust::Message> Relay<T> {
     pub fn new(node: &Node, from: &str, to: &str) -> Self {
+        Self::between(node, from, node.publish(to, 100).unwrap())
+    }
+
+    /// One whose last message is told to those who come later.
+    pub fn latched(node: &Node, from: &str, to: &str) -> Self {
+        Self::between(node, from, node.publish_latched(to).unwrap())
+    }
+
+    fn between(node: &Node, from: &str, out: Publisher<T>) -> Self {
         let change: Arc<Mutex<Change<T>>> = Arc::new(Mutex::new(Box::new(Some)));
-        let out = node.publish::<T>(to, 100).unwrap();
         let (theirs, sender) = (Arc::clone(&change), out.clone());
         let feed = Feed::listen(node, from, 100, Duration::from_secs(120), move |message: T, _| {
             if let Some(message) = (theirs.lock().unwrap())(message) {

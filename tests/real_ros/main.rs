@@ -35,6 +35,7 @@ const TESTS: &[Test] = &[
     ("a_mission_script_orders_an_exploration", mission),
     ("the_launch_file_of_explore_lite_works", explore_lite_launch),
     ("a_killed_master_does_not_end_the_exploration", killed_master),
+    ("a_restarted_master_does_not_end_the_exploration", restarted_master),
     ("message_definitions_are_those_of_the_installation", messages),
 ];
 
@@ -395,6 +396,19 @@ fn killed_master(stage: &Stage) {
     let mut explore = stage.explore("_exit_when_done:=true");
     explore.expect_log("best of", DEADLINE);
     stage.roscore.signal("INT");
+    explore.expect_code(0, DEADLINE);
+    assert!(explore.log().contains("complete: "), "{}", explore.log());
+    assert!(stage.folder.join("map.pgm").exists(), "{}", explore.log());
+}
+
+fn restarted_master(stage: &Stage) {
+    let _sim = stage.sim("_slam:=perfect _driver:=navigator");
+    let mut explore = stage.explore("_exit_when_done:=true _config:=wfd");
+    explore.expect_log("best of", DEADLINE);
+    stage.roscore.signal("INT");
+    eventually(SOON, || frontier_explorer::ros::probe(&stage.uri).is_err(), || stage.roscore.log());
+    let port = stage.uri.rsplit(':').next().unwrap();
+    let _second = stage.start("roscore_again", &format!("roscore -p {port}"));
     explore.expect_code(0, DEADLINE);
     assert!(explore.log().contains("complete: "), "{}", explore.log());
     assert!(stage.folder.join("map.pgm").exists(), "{}", explore.log());

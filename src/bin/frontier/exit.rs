@@ -1,5 +1,6 @@
 //! The one place that turns outcomes into exit codes.
 
+use frontier_explorer::text::printable;
 use std::process::ExitCode;
 
 /// How a command ended when it did not fail.
@@ -21,7 +22,7 @@ pub fn code(result: anyhow::Result<Outcome>) -> ExitCode {
         Ok(Outcome::Incomplete) => ExitCode::from(3),
         Err(error) => {
             // A closed stderr is no reason to panic while reporting.
-            let line = format!("frontier: {}\n", told_once(&error));
+            let line = format!("frontier: {}\n", printable(&told_once(&error)));
             let _ = std::io::Write::write_all(&mut std::io::stderr(), line.as_bytes());
             ExitCode::FAILURE
         }

@@ -1,13 +1,15 @@
 //! Results on standard output. A reader that has gone, such as `head`, is no error.
 
 use anyhow::Context;
+use frontier_explorer::text::printable;
 use serde::Serialize;
 use std::fmt::Arguments;
 use std::io::{ErrorKind, Write};
 
-/// Writes one line: `output::line(format_args!("..."))?`.
+/// Writes one line: `output::line(format_args!("..."))?`. Control characters in it, which come from
+/// names in bags and maps, are written out.
 pub fn line(text: Arguments<'_>) -> anyhow::Result<()> {
-    deliver(&mut std::io::stdout().lock(), format!("{text}\n").as_bytes())
+    bytes(printable(&format!("{text}\n")).as_bytes())
 }
 
 /// Writes bytes as they are.
@@ -18,7 +20,7 @@ pub fn bytes(bytes: &[u8]) -> anyhow::Result<()> {
 /// Writes a value as indented JSON and a line end.
 pub fn json(value: &impl Serialize) -> anyhow::Result<()> {
     let text = serde_json::to_string_pretty(value).context("cannot write the result as JSON")?;
-    line(format_args!("{text}"))
+    bytes(format!("{text}\n").as_bytes())
 }
 
 fn deliver(out: &mut impl Write, bytes: &[u8]) -> anyhow::Result<()> {

@@ -1,5 +1,5 @@
-//! What the user is told while a run goes on: a map that jumped, a map that is stale, a robot
-//! outside of its areas.
+//! What the user is told while a run goes on: a map that jumped, a map that is stale or of no
+//! use, a robot outside of its areas.
 
 use super::Explorer;
 use crate::geometry::Pose;
@@ -9,7 +9,7 @@ use crate::planning::Whereabouts;
 const JUMP_M: f64 = 0.5;
 /// A robot that stands outside by less than this has stopped a little late, metres.
 const OUTSIDE_M: f64 = 0.3;
-/// From one word about a stale map to the next, seconds.
+/// From one word about a stale or useless map to the next, seconds.
 const STALE_PERIOD_S: f64 = 15.0;
 
 impl Explorer {
@@ -47,6 +47,14 @@ impl Explorer {
         };
         if !std::mem::replace(&mut self.outside_told, true) {
             self.notice = Some(text);
+        }
+    }
+
+    /// Tells, now and then, why nothing can be decided on the map that is there.
+    pub(super) fn notice_useless_map(&mut self, why: &str, now_s: f64) {
+        if now_s - self.stale_told_s >= STALE_PERIOD_S {
+            self.stale_told_s = now_s;
+            self.notice = Some(format!("another map is waited for: {why}"));
         }
     }
 

@@ -57,6 +57,9 @@ impl Explorer {
         if now_s - since_s >= self.settings.patience.map_timeout_s {
             self.end_now(EndReason::NoMap, now_s, why);
         } else {
+            if now_s - since_s >= self.settings.patience.map_timeout_s / 12.0 {
+                self.notice_useless_map(why, now_s);
+            }
             self.state = State::Settling { since_s: now_s };
         }
     }

@@ -176,14 +176,10 @@ impl MoveBaseServer {
     /// Publishes the costmap: what changed, where the size is the same.
     fn show_costmap(&mut self, costmap: &Costmap, stamp_s: f64) {
         let new = costmap.to_published();
-        match &self.published {
-            Some(old) if old.info() == new.info() => {
-                if let Some(patch) = GridPatch::difference(old, &new) {
-                    let update = convert::patch_message(patch, MAP, stamp_s);
-                    let _ = self.updates.send(update);
-                }
-            }
-            _ => {}
+        if let Some(old) = self.published.as_ref().filter(|old| old.info() == new.info())
+            && let Some(patch) = GridPatch::difference(old, &new)
+        {
+            let _ = self.updates.send(convert::patch_message(patch, MAP, stamp_s));
         }
         // The latched grid serves those who come later.
         if self.published.as_ref().is_none_or(|old| old.info() != new.info()) {
@@ -200,6 +196,11 @@ impl MoveBaseServer {
         for order in orders {
             let now_s = self.node.wall_s();
             match order {
+                Order::Goal(id, _) if fault == Fault::RejectGoals => {
+                    let text = "rejected by a fault that was switched on";
+                    let rejected = self.book.turn_away(id, GoalStatus::REJECTED, text, now_s);
+                    self.tell_result(Some(rejected), stamp_s);
+                }
                 Order::Goal(id, goal_in_map) => {
                     let replaced = self.book.accept(id, now_s);
                     self.tell_result(replaced, stamp_s);

@@ -29,6 +29,8 @@ pub enum Fault {
     DropTf,
     /// move_base aborts every goal.
     AbortGoals,
+    /// move_base turns every goal away.
+    RejectGoals,
     /// move_base takes goals, does nothing, and never says so.
     Hang,
     /// move_base is gone: no status, no result.
@@ -39,7 +41,7 @@ pub enum Fault {
 
 impl Fault {
     /// The names of all faults.
-    pub const NAMES: &'static str = "none, drop_tf, abort_goals, hang, dead_move_base, stop_map";
+    pub const NAMES: &'static str = "none, drop_tf, abort_goals, reject_goals, hang, dead_move_base, stop_map";
 
     /// A fault by its name.
     #[must_use]

@@ -43,7 +43,12 @@ impl RosRobot {
                 self.stop();
                 self.clock.skip_to(ros_s);
             } else if ros_s > 0.0 {
-                let now_s = self.clock.at(ros_s);
+                let now_s = self.clock.at(ros_s, self.node.wall_s());
+                if let Some(ahead_s) = self.clock.take_jump_ahead() {
+                    let text =
+                        format_args!("ROS time jumped ahead by {ahead_s:.0} s: to the exploration that is no time");
+                    self.node.log().warn(text);
+                }
                 if rung || now_s >= self.next_tick_s {
                     self.next_tick_s = now_s + self.config.tick_period_s;
                     return Ok((ros_s, true));

@@ -9,7 +9,7 @@ use crate::exit::Outcome;
 use crate::{inputs, output, stop, values};
 use anyhow::Context;
 use frontier_explorer::config::Preset;
-use frontier_explorer::io::{BUILT_IN_WORLDS, load_preset, load_robot, write_atomic};
+use frontier_explorer::io::{BUILT_IN_WORLDS, load_preset, load_robot, read_bytes, write_atomic};
 use frontier_explorer::report::{Comparison, ComparisonPlan};
 use frontier_explorer::run::comparison::{Runner, Starts};
 use frontier_explorer::sim::SlamKind;
@@ -148,7 +148,7 @@ fn presets(args: &Args) -> anyhow::Result<Vec<Preset>> {
 fn merge(files: &[PathBuf]) -> anyhow::Result<Comparison> {
     let mut merged: Option<Comparison> = None;
     for file in files {
-        let bytes = std::fs::read(file).with_context(|| format!("cannot read {}", file.display()))?;
+        let bytes = read_bytes(file).with_context(|| format!("cannot read {}", file.display()))?;
         let part = Comparison::from_json(&bytes).with_context(|| file.display().to_string())?;
         match &mut merged {
             None => merged = Some(part),

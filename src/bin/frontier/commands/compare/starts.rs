@@ -1,6 +1,7 @@
 //! Where the runs begin, as the command line says it.
 
 use anyhow::Context;
+use frontier_explorer::io::read_text;
 use frontier_explorer::run::comparison::Starts;
 use std::path::PathBuf;
 
@@ -32,7 +33,7 @@ impl StartsArg {
         match self {
             Self::Auto(count) => Ok(Starts::auto(*count)),
             Self::File(file) => {
-                let text = std::fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
+                let text = read_text(file).with_context(|| format!("cannot read {}", file.display()))?;
                 Starts::from_csv(&text).with_context(|| file.display().to_string())
             }
         }
