@@ -31,14 +31,12 @@ use frontier_explorer::ros::msg::std_msgs::{Bool, String as StringMessage};
 use frontier_explorer::ros::msg::visualization_msgs::MarkerArray;
 use frontier_explorer::ros::{Node, start_embedded_master};
 use frontier_explorer::sim::{self, TargetArea};
-use libtest_mimic::{Arguments, Failed, Trial};
-use rig::{DEADLINE, Heard, Process, eventually, small_house};
+use libtest_mimic::{Arguments, Trial};
+use rig::{DEADLINE, Heard, Process, eventually, in_own_process, small_house};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-/// Names the test that a process is to run.
-const CHILD: &str = "FRONTIER_LIVE_TEST";
 /// Simulated seconds a real second.
 const SPEED: f64 = 8.0;
 /// The kind stand-ins of `sim_node`.
@@ -70,8 +68,7 @@ const TESTS: &[Test] = &[
 ];
 
 fn main() {
-    if let Ok(name) = std::env::var(CHILD) {
-        let port: u16 = std::env::var("FRONTIER_LIVE_PORT").unwrap().parse().unwrap();
+    if let Some((name, port)) = rig::own_test() {
         if name == peers::MASTER {
             return peers::serve_master(port);
         }
@@ -100,23 +97,6 @@ fn all() -> impl Iterator<Item = &'static Test> {
         .chain(faults_files::TESTS)
         .chain(faults_network::TESTS)
         .chain(faults_signals::TESTS)
-}
-
-fn in_own_process(name: &str) -> Result<(), Failed> {
-    let port = std::net::TcpListener::bind("127.0.0.1:0")?.local_addr()?.port();
-    let output = Command::new(std::env::current_exe()?)
-        .env(CHILD, name)
-        .env("FRONTIER_LIVE_PORT", port.to_string())
-        .env("ROS_MASTER_URI", format!("http://localhost:{port}"))
-        .env("ROS_HOSTNAME", "localhost")
-        .env_remove("ROS_NAMESPACE")
-        .env_remove("ROS_IP")
-        .output()?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    Err(format!("{}{}", text(&output.stdout), text(&output.stderr)).into())
 }
 
 /// What a saved map shows by a SLAM that never errs, percent.

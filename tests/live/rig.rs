@@ -1,6 +1,7 @@
 //! What live tests run on: nodes as processes, a probe inside the test, a deadline.
 
 use frontier_explorer::ros::{Feed, Node};
+use libtest_mimic::Failed;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::{Arc, Mutex};
@@ -8,6 +9,34 @@ use std::time::{Duration, Instant};
 
 /// A test that takes longer has failed.
 pub const DEADLINE: Duration = Duration::from_secs(120);
+
+/// Names the test that a process is to run.
+const CHILD: &str = "FRONTIER_LIVE_TEST";
+
+/// The test that this process is to run and the port of its master, where another one started it
+/// for a test.
+pub fn own_test() -> Option<(String, u16)> {
+    let name = std::env::var(CHILD).ok()?;
+    Some((name, std::env::var("FRONTIER_LIVE_PORT").unwrap().parse().unwrap()))
+}
+
+/// Runs a test in a process of its own.
+pub fn in_own_process(name: &str) -> Result<(), Failed> {
+    let port = std::net::TcpListener::bind("127.0.0.1:0")?.local_addr()?.port();
+    let output = Command::new(std::env::current_exe()?)
+        .env(CHILD, name)
+        .env("FRONTIER_LIVE_PORT", port.to_string())
+        .env("ROS_MASTER_URI", format!("http://localhost:{port}"))
+        .env("ROS_HOSTNAME", "localhost")
+        .env_remove("ROS_NAMESPACE")
+        .env_remove("ROS_IP")
+        .output()?;
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Err(format!("{}{}", text(&output.stdout), text(&output.stderr)).into())
+}
 
 /// A process that is killed when the test ends.
 pub struct Process {
@@ -53,6 +82,11 @@ impl Process {
     /// How it ended, if it has.
     pub fn try_wait(&mut self) -> Option<ExitStatus> {
         self.child.try_wait().unwrap()
+    }
+
+    /// Whether it has not ended.
+    pub fn is_running(&mut self) -> bool {
+        self.child.try_wait().unwrap().is_none()
     }
 
     /// Waits for its end.
@@ -160,9 +194,14 @@ pub fn small_house(folder: &Path) -> PathBuf {
         let middle = (78..82).contains(&x) && !(25..47).contains(&y);
         outer || middle
     };
-    let mut image = format!("P5\n{WIDTH} {HEIGHT}\n255\n").into_bytes();
-    for row in 0..HEIGHT {
-        image.extend((0..WIDTH).map(|x| if is_wall(x, HEIGHT - 1 - row) { 0 } else { 254 }));
+    write_house(folder, (WIDTH, HEIGHT), is_wall)
+}
+
+/// A house whose walls are said cell by cell from the lower left, 0.05 m each, as a map_server map.
+pub fn write_house(folder: &Path, (width, height): (usize, usize), is_wall: impl Fn(usize, usize) -> bool) -> PathBuf {
+    let mut image = format!("P5\n{width} {height}\n255\n").into_bytes();
+    for row in 0..height {
+        image.extend((0..width).map(|x| if is_wall(x, height - 1 - row) { 0 } else { 254 }));
     }
     std::fs::write(folder.join("house.pgm"), image).unwrap();
     let yaml = "image: house.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\n\
