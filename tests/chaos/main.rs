@@ -102,7 +102,7 @@ impl Run {
                 break;
             }
         }
-        while self.explore.is_running() {
+        while self.explore.try_wait().is_none() {
             assert!(began.elapsed() < LIMIT, "no end after {LIMIT:?}: {}", self.story());
             std::thread::sleep(Duration::from_millis(20));
         }
@@ -117,18 +117,18 @@ impl Run {
 
     /// Whether there is still something that may go wrong: a killed explorer has not ended.
     fn has_begun_and_not_ended(&mut self) -> bool {
-        self.explore.is_running() || self.is_killed()
+        self.explore.try_wait().is_none() || self.is_killed()
     }
 
     fn is_killed(&mut self) -> bool {
         use std::os::unix::process::ExitStatusExt as _;
-        !self.explore.is_running() && self.explore.wait(SOON).signal().is_some()
+        self.explore.try_wait().is_some() && self.explore.wait(SOON).signal().is_some()
     }
 
     fn act(&mut self, action: Action) {
         match action {
             Action::Fault(name) => self.faults.send(StringMessage { data: name.to_owned() }).unwrap(),
-            Action::Kill if self.explore.is_running() => {
+            Action::Kill if self.explore.try_wait().is_none() => {
                 self.explore.signal("KILL");
                 self.explore.wait(SOON);
             }
@@ -148,7 +148,7 @@ impl Run {
         let is_done = answer.as_ref().is_ok_and(|answer| answer.success);
         if !is_done {
             std::thread::sleep(Duration::from_secs(3));
-            let has_ended = !self.explore.is_running() || self.explore.log().contains("saved ");
+            let has_ended = self.explore.try_wait().is_some() || self.explore.log().contains("saved ");
             assert!(has_ended, "{control}: {answer:?}: {}", self.story());
         }
     }

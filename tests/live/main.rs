@@ -32,9 +32,8 @@ use frontier_explorer::ros::msg::visualization_msgs::MarkerArray;
 use frontier_explorer::ros::{Node, start_embedded_master};
 use frontier_explorer::sim::{self, TargetArea};
 use libtest_mimic::{Arguments, Trial};
-use rig::{DEADLINE, Heard, Process, eventually, in_own_process, small_house};
+use rig::{CHILD, DEADLINE, Heard, Process, eventually, in_own_process, small_house};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::Duration;
 
 /// Simulated seconds a real second.
