@@ -77,7 +77,8 @@ fn link(world: &World) {
 /// No process of this shell can write files of more than so many kilobytes, and hears of it as of a
 /// full disk.
 fn limited(world: &World, kilobytes: u32, args: &[&str]) -> Process {
-    let script = format!("trap '' XFSZ; ulimit -f {kilobytes}; exec \"$0\" \"$@\" 2>&1 | cat > explore.piped");
+    let script =
+        format!("set -o pipefail; trap '' XFSZ; ulimit -f {kilobytes}; exec \"$0\" \"$@\" 2>&1 | cat > explore.piped");
     let script = format!("cd {} && {script}", world.folder.display());
     let all = [&["-c", &script, env!("CARGO_BIN_EXE_explore_node")], args].concat();
     Process::start("bash", &all, world.folder.join("explore.log"))
@@ -94,7 +95,7 @@ fn full_disk(world: &World) {
         m.phase == ExplorationStatus::ENDED && m.message.contains("the map is not saved: cannot write")
     });
     assert_eq!(end.end_reason, "complete");
-    explore.wait(SOON);
+    explore.expect_code(1, SOON);
     let log = std::fs::read_to_string(world.folder.join("explore.piped")).unwrap();
     assert!(log.contains("map.pgm: File too large"), "{log}");
     assert_eq!(std::fs::read_to_string(map.with_extension("pgm")).unwrap(), "the old one");
@@ -110,7 +111,7 @@ fn full_disk_for_the_session(world: &World) {
     status.expect(DEADLINE, "a status that says it", |m| m.message.contains(said));
     let end = status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
     assert_eq!(end.end_reason, "complete");
-    explore.wait(SOON);
+    explore.expect_code(0, SOON);
     let log = std::fs::read_to_string(world.folder.join("explore.piped")).unwrap();
     assert!(log.contains(said) && log.contains("File too large"), "{log}");
     expect_nothing_half_written(&world.folder);

@@ -18,7 +18,7 @@ pub const TESTS: &[Test] = &[
     ("a_map_without_anything_known_is_no_end", all_unknown),
     ("a_map_that_stops_ends_no_map", stops),
     ("a_robot_off_the_map_waits_for_a_map_around_it", off_the_map),
-    ("a_robot_inside_an_obstacle_gets_out_of_it", inside_an_obstacle),
+    ("a_robot_inside_an_obstacle_waits_for_a_map_around_it", inside_an_obstacle),
 ];
 
 /// A simulator whose maps pass through the test, and what an explorer says.
@@ -230,6 +230,7 @@ fn stops(world: &World) {
     let mut explore = world.explore(&["_explorer:={patience: {map_timeout_s: 30.0}}"]);
     stage.is_driving();
     faults.send(StringMessage { data: "stop_map".to_owned() }).unwrap();
+    explore.expect_log("the map is stale: no newer one has come for", SOON);
     let end = stage.status.expect(DEADLINE, "the end", |m| m.phase == ExplorationStatus::ENDED);
     assert_eq!(end.end_reason, "no_map", "{end:?}\n{}", explore.log());
     explore.expect_code(3, SOON);
