@@ -35,6 +35,8 @@ pub enum Trouble {
     MapFile,
     /// The session cannot be saved.
     Session,
+    /// The node uses much of the machine.
+    Resources,
 }
 
 struct Entry {

@@ -12,13 +12,14 @@ mod rig;
 
 use frontier_explorer::geometry::{Footprint, Pose};
 use frontier_explorer::io::load_map;
+use frontier_explorer::ros::msg::rosgraph_msgs::Clock;
 use frontier_explorer::ros::msg::std_msgs::String as StringMessage;
 use frontier_explorer::ros::msg::std_srvs::{Trigger, TriggerReq};
 use frontier_explorer::ros::{Node, call, start_embedded_master};
 use frontier_explorer::sim::{TargetArea, World};
 use libtest_mimic::{Arguments, Trial};
 use plan::{Action, Plan};
-use rig::{Process, in_own_process, write_house};
+use rig::{Heard, Process, in_own_process, write_house};
 use rosrust::Publisher;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -57,6 +58,7 @@ struct Run {
     folder: PathBuf,
     house: PathBuf,
     probe: Node,
+    clock: Heard<Clock>,
     faults: Publisher<StringMessage>,
     plan: Plan,
     sim: Process,
@@ -73,6 +75,7 @@ impl Run {
         let probe = Node::start("probe").unwrap();
         probe.set_param("/use_sim_time", &true).unwrap();
         let house = house(folder);
+        let clock = Heard::on(&probe, "/clock");
         let faults = probe.publish_latched("/sim/fault").unwrap();
         let args = [
             format!("_world:={}", house.display()),
@@ -84,20 +87,20 @@ impl Run {
         let sim = Process::start(env!("CARGO_BIN_EXE_sim_node"), &args, folder.join("sim.log"));
         let explore = explore(folder, 0);
         let folder = folder.to_owned();
-        Self { folder, house, probe, faults, plan, sim, explore, starts: 1, done: Vec::new() }
+        Self { folder, house, probe, clock, faults, plan, sim, explore, starts: 1, done: Vec::new() }
     }
 
     /// Does what the plan says until the explorer has ended, and looks whether that was right.
     fn to_its_end(mut self) {
         self.explore.expect_log("preset", SOON);
-        let (began, began_s) = (Instant::now(), self.probe.now_s());
+        let (began, began_s) = (Instant::now(), self.now_s());
         for (at_s, action) in self.plan.actions.clone() {
-            while self.probe.now_s() - began_s < at_s && self.has_begun_and_not_ended() {
+            while self.now_s() - began_s < at_s && self.has_begun_and_not_ended() {
                 std::thread::sleep(Duration::from_millis(10));
                 assert!(began.elapsed() < LIMIT, "time stands still: {}", self.story());
             }
             self.act(action);
-            self.done.push(format!("{:.1} s: {action:?}", self.probe.now_s() - began_s));
+            self.done.push(format!("{:.1} s: {action:?}", self.now_s() - began_s));
             if !self.has_begun_and_not_ended() {
                 break;
             }
@@ -113,6 +116,11 @@ impl Run {
         }
         let is_right = self.plan.ends.iter().any(|name| log.contains(&format!("{name}: ")));
         assert!(end == Some(3) && is_right, "exit code {end:?}: {}", self.story());
+    }
+
+    /// Simulated time, seconds.
+    fn now_s(&self) -> f64 {
+        self.clock.last().map_or(0.0, |message| message.clock.seconds())
     }
 
     /// Whether there is still something that may go wrong: a killed explorer has not ended.

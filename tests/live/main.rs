@@ -23,6 +23,7 @@ mod session;
 
 use frontier_explorer::geometry::{Footprint, Pose};
 use frontier_explorer::io::load_map;
+use frontier_explorer::ros::msg::diagnostic_msgs::{DiagnosticArray, DiagnosticStatus};
 use frontier_explorer::ros::msg::frontier_explorer::{ExplorationStatus, FrontierArray};
 use frontier_explorer::ros::msg::geometry_msgs::{Point32, Polygon, PolygonStamped, PoseStamped, Twist};
 use frontier_explorer::ros::msg::move_base_msgs::MoveBaseActionGoal;
@@ -48,6 +49,7 @@ type Test = (&'static str, fn(&World));
 const TESTS: &[Test] = &[
     ("explores_a_house_saves_its_map_and_leaves", explores_a_house),
     ("shows_frontiers_goals_and_status", shows_what_it_does),
+    ("tells_what_it_uses_and_when_that_is_too_much", resources),
     ("sigterm_stops_the_robot_and_saves_the_map", sigterm),
     ("lost_transforms_pause_and_do_not_end", lost_transforms),
     ("a_dead_move_base_is_named_at_the_end", dead_move_base),
@@ -199,6 +201,32 @@ fn shows_what_it_does(world: &World) {
     let end = status.expect(SOON, "the end", |m| m.phase == ExplorationStatus::ENDED);
     assert_eq!(end.end_reason, "complete");
     assert!(end.known_area_m2 > 22.0 && end.distance_m > 2.0 && end.goals_failed == 0, "{end:?}");
+}
+
+fn resources(world: &World) {
+    let health = Heard::<DiagnosticArray>::on(&world.probe, "/diagnostics");
+    let _sim = world.simulate_kindly(&[]);
+    let explore = world.explore(&["_exit_when_done:=false"]);
+    let value = |m: &DiagnosticArray, key: &str| -> Option<f64> {
+        m.status.iter().flat_map(|s| &s.values).find(|v| v.key == key)?.value.parse().ok()
+    };
+    explore.expect_log("preset", SOON);
+    std::thread::sleep(Duration::from_secs(3));
+    let now = health.last().unwrap();
+    let open = value(&now, "open descriptors").unwrap();
+    assert!(open > 10.0 && value(&now, "threads") > Some(10.0) && value(&now, "memory [MB]") > Some(1.0), "{now:?}");
+    let limit = |most: f64| {
+        let (id, limit) = (explore.id().to_string(), format!("--nofile={most:.0}:"));
+        assert!(Command::new("prlimit").args(["--pid", &id, &limit]).status().unwrap().success());
+    };
+    let says = |m: &DiagnosticArray| m.status.iter().any(|s| s.message.contains("descriptors are open"));
+    assert!(!health.all().iter().any(says), "{now:?}");
+    limit(1.15 * open);
+    let warned = health.expect(SOON, "a warning", says);
+    assert!(warned.status.iter().all(|s| s.level == DiagnosticStatus::WARN), "{warned:?}");
+    explore.expect_log("the node runs short: ", SOON);
+    limit(10.0 * open);
+    eventually(SOON, || !health.last().is_some_and(|m| says(&m)), || format!("{:?}", health.last()));
 }
 
 fn sigterm(world: &World) {

@@ -108,6 +108,11 @@ impl Process {
         assert!(status.success());
     }
 
+    /// Its number.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// Waits until its log holds a text.
     pub fn expect_log(&self, text: &str, limit: Duration) {
         eventually(limit, || self.log().contains(text), || format!("{text:?} is not in:\n{}", self.log()));

@@ -11,6 +11,7 @@ mod exploration;
 mod live_params;
 mod operator;
 mod outputs;
+mod resources;
 mod rules;
 mod saving;
 mod session;

@@ -1,10 +1,12 @@
 //! The topics that the node offers, and the thread that keeps its status fresh.
 
 use super::connect::Connected;
+use super::resources;
 use super::saving::MapSaver;
 use super::settings::{ExploreNodeError, Settings};
 use crate::explore::{Counts, Decision, DecisionRecord, Explorer, Phase, TimeSpent};
 use crate::geometry::Path;
+use crate::io::ProcessUse;
 use crate::ros::convert;
 use crate::ros::display::{
     FrontierMarkers, StatusInput, diagnostics, frontier_array, no_markers, region_message, status, status_sentence,
@@ -186,8 +188,16 @@ struct Teller {
 impl Teller {
     /// Tells the status with what is wrong now, and returns it.
     fn tell(&self) -> ExplorationStatus {
+        let used = ProcessUse::now();
+        if let Some(used) = &used {
+            match resources::complaint(used) {
+                Some(text) => self.troubles.report(Trouble::Resources, Level::Warn, text),
+                None => _ = self.troubles.clear(Trouble::Resources),
+            }
+        }
+        let values = used.as_ref().map(resources::values).unwrap_or_default();
         let (fresh, worst) = self.fresh();
-        let _ = self.health.send(diagnostics(self.node.name(), &fresh, worst));
+        let _ = self.health.send(diagnostics(self.node.name(), &fresh, worst, values));
         let _ = self.now.send(fresh.clone());
         fresh
     }
@@ -202,7 +212,8 @@ impl Teller {
         let worst = self.troubles.worst().filter(|(level, _)| !ended || *level == Level::Error);
         if let Some((_, text)) = &worst {
             // What does not keep it from going on is said beside what it does.
-            let is_beside = ended || self.troubles.text(Trouble::CostmapUnknown).as_ref() == Some(text);
+            let is_said = |trouble| self.troubles.text(trouble).as_ref() == Some(text);
+            let is_beside = ended || is_said(Trouble::CostmapUnknown) || is_said(Trouble::Resources);
             fresh.message = if is_beside { format!("{}; {text}", fresh.message) } else { text.clone() };
         }
         let is_under_way = !(ended || fresh.phase == ExplorationStatus::IDLE);

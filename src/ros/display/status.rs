@@ -74,9 +74,15 @@ pub fn status(input: &StatusInput<'_>) -> ExplorationStatus {
     }
 }
 
-/// The same for rqt_robot_monitor and its kind, with the gravest trouble that there is.
+/// The same for rqt_robot_monitor and its kind, with the gravest trouble that there is, and with
+/// more names and values.
 #[must_use]
-pub fn diagnostics(node: &str, status: &ExplorationStatus, trouble: Option<Level>) -> DiagnosticArray {
+pub fn diagnostics(
+    node: &str,
+    status: &ExplorationStatus,
+    trouble: Option<Level>,
+    more: Vec<(&str, String)>,
+) -> DiagnosticArray {
     let waits = [
         ExplorationStatus::WAITING_FOR_MAP,
         ExplorationStatus::WAITING_FOR_POSE,
@@ -97,7 +103,7 @@ pub fn diagnostics(node: &str, status: &ExplorationStatus, trouble: Option<Level
         _ => DiagnosticStatus::OK,
     };
     let value = |key: &str, value: String| KeyValue { key: key.to_owned(), value };
-    let values = vec![
+    let mut values = vec![
         value("preset", status.preset.clone()),
         value("elapsed [s]", format!("{:.1}", status.elapsed_s)),
         value("driving [s]", format!("{:.1}", status.driving_s)),
@@ -112,6 +118,7 @@ pub fn diagnostics(node: &str, status: &ExplorationStatus, trouble: Option<Level
         value("age of the map [s]", format!("{:.1}", status.map_age_s)),
         value("end", status.end_reason.clone()),
     ];
+    values.extend(more.into_iter().map(|(key, text)| value(key, text)));
     let name = format!("{}: exploration", node.trim_start_matches('/'));
     let one = DiagnosticStatus { level, name, message: status.message.clone(), values, ..DiagnosticStatus::default() };
     DiagnosticArray { header: status.header.clone(), status: vec![one] }
