@@ -35,6 +35,7 @@ use frontier_explorer::sim::{self, TargetArea};
 use libtest_mimic::{Arguments, Trial};
 use rig::{CHILD, DEADLINE, Heard, Process, eventually, in_own_process, small_house};
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Duration;
 
 /// Simulated seconds a real second.
