@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 pub const DEADLINE: Duration = Duration::from_secs(120);
 
 /// Names the test that a process is to run.
-const CHILD: &str = "FRONTIER_LIVE_TEST";
+pub const CHILD: &str = "FRONTIER_LIVE_TEST";
 
 /// The test that this process is to run and the port of its master, where another one started it
 /// for a test.
