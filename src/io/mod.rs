@@ -24,7 +24,7 @@ pub use error::MapError;
 pub use map_load::{LoadedMap, load_map};
 pub use map_save::{MapImage, SaveOptions, SavedPaths, check_map_path, save_map};
 pub use map_yaml::{MapMode, MapYaml};
-pub use process_use::ProcessUse;
+pub use process_use::{ProcessUse, ProcessUseError};
 pub use settings::{SettingsFileError, file_stem, load_preset, load_robot};
 pub use text_file::{read_bytes, read_if_there, read_text};
 pub use worlds::{BUILT_IN_WORLDS, load_world};

@@ -2,7 +2,29 @@
 //! below `/proc`.
 
 use std::fs::{read_dir, read_to_string};
+use std::io::Error;
 use std::path::Path;
+
+/// The errors of a process, and of a machine, that may open nothing more (`EMFILE`, `ENFILE`).
+const NOTHING_MORE: [i32; 2] = [24, 23];
+
+/// Why it is not known what a process uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ProcessUseError {
+    /// There is no `/proc` as Linux has it.
+    #[error("/proc does not tell what the process uses")]
+    Untold,
+    /// Not even the files that tell it can be opened.
+    #[error("no descriptor is left to open")]
+    NoDescriptorLeft,
+}
+
+impl From<Error> for ProcessUseError {
+    fn from(error: Error) -> Self {
+        let is_full = error.raw_os_error().is_some_and(|code| NOTHING_MORE.contains(&code));
+        if is_full { Self::NoDescriptorLeft } else { Self::Untold }
+    }
+}
 
 /// What a process uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,26 +42,29 @@ pub struct ProcessUse {
 }
 
 impl ProcessUse {
-    /// What this process uses now; `None` where `/proc` does not tell it.
-    #[must_use]
-    pub fn now() -> Option<Self> {
+    /// What this process uses now.
+    ///
+    /// # Errors
+    /// [`ProcessUseError`] where `/proc` is absent, and where nothing more can be opened.
+    pub fn now() -> Result<Self, ProcessUseError> {
         Self::told_below(Path::new("/proc"))
     }
 
-    fn told_below(proc: &Path) -> Option<Self> {
+    fn told_below(proc: &Path) -> Result<Self, ProcessUseError> {
         let own = proc.join("self");
-        let status = read_to_string(own.join("status")).ok()?;
-        let limits = read_to_string(own.join("limits")).ok()?;
-        let machine = read_to_string(proc.join("meminfo")).ok()?;
+        let status = read_to_string(own.join("status"))?;
+        let limits = read_to_string(own.join("limits"))?;
+        let machine = read_to_string(proc.join("meminfo"))?;
         // The folder that is read is open, too.
-        let descriptors = (read_dir(own.join("fd")).ok()?.count() as u64).saturating_sub(1);
-        Some(Self {
+        let descriptors = (read_dir(own.join("fd"))?.count() as u64).saturating_sub(1);
+        let number = |text: &str, name: &str| number_after(text, name).ok_or(ProcessUseError::Untold);
+        Ok(Self {
             descriptors,
             // "unlimited" is no number.
             descriptor_limit: number_after(&limits, "Max open files"),
-            threads: number_after(&status, "Threads:")?,
-            memory_mb: number_after(&status, "VmRSS:")? as f64 / 1024.0,
-            machine_mb: number_after(&machine, "MemTotal:")? as f64 / 1024.0,
+            threads: number(&status, "Threads:")?,
+            memory_mb: number(&status, "VmRSS:")? as f64 / 1024.0,
+            machine_mb: number(&machine, "MemTotal:")? as f64 / 1024.0,
         })
     }
 }
@@ -60,7 +85,7 @@ mod tests {
         let proc = tempfile::tempdir().unwrap();
         let told = || ProcessUse::told_below(proc.path());
         let own = proc.path().join("self");
-        assert_eq!(told(), None);
+        assert_eq!(told(), Err(ProcessUseError::Untold));
         create_dir_all(own.join("fd")).unwrap();
         for descriptor in 0..5 {
             File::create(own.join("fd").join(descriptor.to_string())).unwrap();
@@ -76,12 +101,23 @@ mod tests {
             memory_mb: 4.0,
             machine_mb: 2048.0,
         };
-        assert_eq!(told(), Some(expected));
+        assert_eq!(told(), Ok(expected));
         write(own.join("limits"), limits.replace("1024", "unlimited")).unwrap();
         expected.descriptor_limit = None;
-        assert_eq!(told(), Some(expected));
+        assert_eq!(told(), Ok(expected));
         write(own.join("status"), "Name:\tx\n").unwrap();
-        assert_eq!(told(), None);
+        assert_eq!(told(), Err(ProcessUseError::Untold));
+    }
+
+    #[test]
+    fn a_process_that_may_open_nothing_more_is_told_apart() {
+        for (code, expected) in [
+            (24, ProcessUseError::NoDescriptorLeft),
+            (23, ProcessUseError::NoDescriptorLeft),
+            (2, ProcessUseError::Untold),
+        ] {
+            assert_eq!(ProcessUseError::from(Error::from_raw_os_error(code)), expected, "{code}");
+        }
     }
 
     #[test]

@@ -336,7 +336,7 @@ fn no_master(world: &World) {
     fails("no master");
     let env = [
         ("ROS_MASTER_URI".to_owned(), uri.clone()),
-        (crate::CHILD.to_owned(), peers::MASTER.to_owned()),
+        (crate::rig::CHILD.to_owned(), peers::MASTER.to_owned()),
         ("FRONTIER_LIVE_PORT".to_owned(), port.to_string()),
     ];
     let program = std::env::current_exe().unwrap();

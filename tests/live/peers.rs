@@ -114,7 +114,7 @@ fn frozen_master(world: &World) {
     let port = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
     let env = [
         ("ROS_MASTER_URI".to_owned(), format!("http://localhost:{port}")),
-        (crate::CHILD.to_owned(), MASTER.to_owned()),
+        (crate::rig::CHILD.to_owned(), MASTER.to_owned()),
         ("FRONTIER_LIVE_PORT".to_owned(), port.to_string()),
     ];
     let program = std::env::current_exe().unwrap();

@@ -189,11 +189,9 @@ impl Teller {
     /// Tells the status with what is wrong now, and returns it.
     fn tell(&self) -> ExplorationStatus {
         let used = ProcessUse::now();
-        if let Some(used) = &used {
-            match resources::complaint(used) {
-                Some(text) => self.troubles.report(Trouble::Resources, Level::Warn, text),
-                None => _ = self.troubles.clear(Trouble::Resources),
-            }
+        match resources::complaint(&used) {
+            Some(text) => self.troubles.report(Trouble::Resources, Level::Warn, text),
+            None => _ = self.troubles.clear(Trouble::Resources),
         }
         let values = used.as_ref().map(resources::values).unwrap_or_default();
         let (fresh, worst) = self.fresh();

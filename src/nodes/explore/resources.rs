@@ -1,6 +1,6 @@
 //! What the node uses of the machine: shown in `/diagnostics`, and a trouble when it is too much.
 
-use crate::io::ProcessUse;
+use crate::io::{ProcessUse, ProcessUseError};
 
 /// More of the descriptors that it may open is too much: a share.
 const MOST_DESCRIPTORS: f64 = 0.8;
@@ -18,22 +18,30 @@ pub fn values(used: &ProcessUse) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// What is too much, in one sentence.
-pub fn complaint(used: &ProcessUse) -> Option<String> {
-    let mut too_much = Vec::new();
-    if let Some(limit) =
-        used.descriptor_limit.filter(|&limit| used.descriptors as f64 > MOST_DESCRIPTORS * limit as f64)
-    {
-        too_much.push(format!("{} of {limit} descriptors are open (ulimit -n)", used.descriptors));
-    }
-    if used.threads > MOST_THREADS {
-        too_much.push(format!("{} threads run: must be at most {MOST_THREADS}", used.threads));
-    }
-    if used.memory_mb > MOST_MEMORY * used.machine_mb {
-        too_much.push(format!("it holds {:.0} of the machine's {:.0} MB of memory", used.memory_mb, used.machine_mb));
-    }
+/// What is too much, in one sentence; `None` where nothing is or where nobody tells.
+pub fn complaint(used: &Result<ProcessUse, ProcessUseError>) -> Option<String> {
+    let too_much = match used {
+        Ok(used) => too_much(used),
+        Err(full @ ProcessUseError::NoDescriptorLeft) => vec![full.to_string()],
+        Err(ProcessUseError::Untold) => Vec::new(),
+    };
     let all = too_much.join(", ");
     (!all.is_empty()).then(|| format!("the node runs short: {all}; restart it with ~resume_from before it fails"))
+}
+
+fn too_much(used: &ProcessUse) -> Vec<String> {
+    let mut found = Vec::new();
+    let most = |limit: &u64| MOST_DESCRIPTORS * *limit as f64;
+    if let Some(limit) = used.descriptor_limit.filter(|limit| used.descriptors as f64 > most(limit)) {
+        found.push(format!("{} of {limit} descriptors are open (ulimit -n)", used.descriptors));
+    }
+    if used.threads > MOST_THREADS {
+        found.push(format!("{} threads run: must be at most {MOST_THREADS}", used.threads));
+    }
+    if used.memory_mb > MOST_MEMORY * used.machine_mb {
+        found.push(format!("it holds {:.0} of the machine's {:.0} MB of memory", used.memory_mb, used.machine_mb));
+    }
+    found
 }
 
 #[cfg(test)]
@@ -49,16 +57,19 @@ mod tests {
             memory_mb: 1000.0,
             machine_mb: 2000.0,
         };
-        let check = |used: ProcessUse, expected: &[&str]| {
+        let check_told = |used: Result<ProcessUse, ProcessUseError>, expected: &[&str]| {
             let said = complaint(&used);
             assert_eq!(said.is_some(), !expected.is_empty(), "{said:?}");
             assert!(expected.iter().all(|part| said.as_ref().is_some_and(|said| said.contains(part))), "{said:?}");
         };
+        let check = |used, expected: &[&str]| check_told(Ok(used), expected);
         check(little, &[]);
         check(ProcessUse { descriptors: 81, ..little }, &["81 of 100 descriptors"]);
         check(ProcessUse { descriptors: 81, descriptor_limit: None, ..little }, &[]);
         let (threads, memory_mb) = (501, 1001.0);
         check(ProcessUse { threads, memory_mb, ..little }, &["501 threads", "1001 of the machine's 2000 MB"]);
+        check_told(Err(ProcessUseError::NoDescriptorLeft), &["no descriptor is left"]);
+        check_told(Err(ProcessUseError::Untold), &[]);
     }
 
     #[test]
