@@ -76,7 +76,7 @@ impl Process {
 
     /// Whether it has not ended.
     pub fn is_running(&mut self) -> bool {
-        self.child.try_wait().unwrap().is_none()
+        matches!(self.child.try_wait(), Ok(None))
     }
 
     /// Waits for its end.
@@ -117,10 +117,10 @@ impl Process {
 impl Drop for Process {
     /// Asks it to end, as roscore and roslaunch end their own children then, and makes it.
     fn drop(&mut self) {
-        if matches!(self.child.try_wait(), Ok(None)) {
+        if self.is_running() {
             let _ = Command::new("kill").arg("-INT").arg(self.child.id().to_string()).status();
             let began = Instant::now();
-            while matches!(self.child.try_wait(), Ok(None)) && began.elapsed() < Duration::from_secs(8) {
+            while self.is_running() && began.elapsed() < Duration::from_secs(8) {
                 std::thread::sleep(Duration::from_millis(20));
             }
         }
