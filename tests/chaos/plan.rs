@@ -5,6 +5,8 @@ use rand_pcg::Pcg32;
 
 /// Nothing goes wrong later than this, simulated seconds.
 const HORIZON_S: f64 = 160.0;
+/// A pause, and the time from a kill to the next start, are shorter than this, simulated seconds.
+const LONGEST_PAUSE_S: f64 = 15.0;
 /// One run of so many has a fault that stays.
 const STAYS_ONE_IN: u32 = 5;
 /// What `sim_node`'s `~fault` can do, the longest that it lasts where it passes, in simulated
@@ -48,13 +50,14 @@ impl Plan {
         let mut random = Pcg32::seed_from_u64(seed);
         let mut actions = Vec::new();
         let mut ends: &[&str] = &[];
+        let mut stays_from_s = f64::INFINITY;
         let stays = random.random_range(0..STAYS_ONE_IN) == 0;
         let mut now_s = random.random_range(1.0..15.0);
         while now_s < HORIZON_S {
             let (name, longest_s, right_ends) = FAULTS[random.random_range(0..FAULTS.len())];
             actions.push((now_s, Action::Fault(name)));
             if stays && now_s > HORIZON_S / 6.0 {
-                ends = right_ends;
+                (ends, stays_from_s) = (right_ends, now_s);
                 break;
             }
             now_s += random.random_range(2.0..longest_s);
@@ -63,13 +66,12 @@ impl Plan {
         }
         let mut now_s = random.random_range(3.0..40.0);
         while now_s < HORIZON_S {
-            let (first, then) = if random.random_range(0..2) == 0 {
-                (Action::Kill, Action::Restart)
-            } else {
-                (Action::Pause, Action::Resume)
-            };
+            // A new explorer waits for the first map and transform however long: none is started
+            // where a fault stays.
+            let is_kill = random.random_range(0..2) == 0 && now_s + LONGEST_PAUSE_S < stays_from_s;
+            let (first, then) = if is_kill { (Action::Kill, Action::Restart) } else { (Action::Pause, Action::Resume) };
             actions.push((now_s, first));
-            now_s += random.random_range(0.5..15.0);
+            now_s += random.random_range(0.5..LONGEST_PAUSE_S);
             actions.push((now_s, then));
             now_s += random.random_range(15.0..45.0);
         }

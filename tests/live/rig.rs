@@ -79,6 +79,11 @@ impl Process {
         self.child.try_wait().unwrap()
     }
 
+    /// Whether it has not ended.
+    pub fn is_running(&mut self) -> bool {
+        matches!(self.child.try_wait(), Ok(None))
+    }
+
     /// Waits for its end.
     pub fn wait(&mut self, limit: Duration) -> ExitStatus {
         let began = Instant::now();
@@ -117,10 +122,10 @@ impl Process {
 impl Drop for Process {
     /// Asks it to end, as roscore and roslaunch end their own children then, and makes it.
     fn drop(&mut self) {
-        if matches!(self.child.try_wait(), Ok(None)) {
+        if self.is_running() {
             let _ = Command::new("kill").arg("-INT").arg(self.child.id().to_string()).status();
             let began = Instant::now();
-            while matches!(self.child.try_wait(), Ok(None)) && began.elapsed() < Duration::from_secs(8) {
+            while self.is_running() && began.elapsed() < Duration::from_secs(8) {
                 std::thread::sleep(Duration::from_millis(20));
             }
         }
