@@ -43,7 +43,7 @@ fn main() {
         let seed = name.strip_prefix("seed_").and_then(|seed| seed.parse().ok()).expect("seed_ and a number");
         let folder = tempfile::tempdir().unwrap();
         start_embedded_master(port).unwrap();
-        return Run::begin(folder.path(), seed).finish();
+        return Run::begin(folder.path(), seed).explore_among_faults();
     }
     let more = std::env::var("FRONTIER_CHAOS_SEEDS").map_or(0, |count| count.parse().expect("a number of seeds"));
     let seeds = SEEDS.iter().copied().chain((0..more).filter(|seed| !SEEDS.contains(seed)));
@@ -91,7 +91,7 @@ impl Run {
     }
 
     /// Does what the plan says until the explorer has ended, and looks whether that was right.
-    fn finish(mut self) {
+    fn explore_among_faults(mut self) {
         self.explore.expect_log("preset", SOON);
         let (began, began_s) = (Instant::now(), self.now_s());
         for (at_s, action) in self.plan.actions.clone() {

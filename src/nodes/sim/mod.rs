@@ -8,6 +8,7 @@
 //! it kind, for what needs exactness.
 
 mod error;
+mod make_plan;
 mod move_base_server;
 mod params;
 mod plan;

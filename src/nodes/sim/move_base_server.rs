@@ -7,10 +7,11 @@
 //! squares three cells apart. Costs are published once a second, first whole, then what has
 //! changed.
 
+use super::make_plan::{Plans, plan_within};
 use super::params::Fault;
 use crate::geometry::{Pose, Twist};
 use crate::grid::{Costmap, GridPatch, OccupancyGrid};
-use crate::planning::{GlobalPlanner, Path};
+use crate::planning::GlobalPlanner;
 use crate::robot::{Command, CommandId, NavigationState};
 use crate::ros::actionlib::{Entry, GoalBook};
 use crate::ros::msg::actionlib_msgs::{GoalID, GoalStatus, GoalStatusArray};
@@ -43,14 +44,6 @@ enum Order {
     Goal(GoalID, Pose),
     Cancel(GoalID),
     ClearCostmaps,
-}
-
-/// What the plan service knows.
-struct Plans {
-    planner: Box<dyn GlobalPlanner>,
-    costmap: Arc<Costmap>,
-    pose: Pose,
-    is_busy: bool,
 }
 
 /// The action server.
@@ -279,25 +272,6 @@ fn serve(node: &Node, plans: &Arc<Mutex<Plans>>, orders: &Arc<Mutex<Vec<Order>>>
         Ok(std_srvs::EmptyRes {})
     })?;
     Ok(vec![make_plan, clear])
-}
-
-/// A plan to a goal, or else to the nearest square around it, three cells apart, up to a
-/// tolerance in metres, as move_base looks for one.
-fn plan_within(plans: &mut Plans, start: &Pose, goal: &Pose, tolerance_m: f64) -> Option<Path> {
-    let Plans { planner, costmap, .. } = plans;
-    let mut plan = |x: f64, y: f64| planner.plan(costmap, start, &Pose::new(goal.x + x, goal.y + y, goal.yaw)).ok();
-    if let Some(path) = plan(0.0, 0.0) {
-        return Some(path);
-    }
-    let usual_m = 3.0 * costmap.info().resolution_m();
-    let step_m = if tolerance_m > 0.0 && tolerance_m < usual_m { tolerance_m } else { usual_m };
-    // No tolerance that makes sense is farther.
-    let rings = (tolerance_m / step_m + 1e-6).clamp(0.0, 100.0) as i32;
-    (1..=rings).find_map(|ring| {
-        let square = (-ring..=ring).flat_map(|y| (-ring..=ring).map(move |x| (x, y)));
-        let rim = square.filter(|&(x, y): &(i32, i32)| x.abs().max(y.abs()) == ring);
-        rim.map(|(x, y)| (f64::from(x) * step_m, f64::from(y) * step_m)).find_map(|(x, y)| plan(x, y))
-    })
 }
 
 fn lock(plans: &Mutex<Plans>) -> MutexGuard<'_, Plans> {
