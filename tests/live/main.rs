@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stderr)]
 
 mod areas;
+mod control_table;
 mod controls;
 mod ctl;
 mod doctor;
@@ -88,7 +89,13 @@ fn main() {
 }
 
 fn all() -> impl Iterator<Item = &'static Test> {
-    let own = TESTS.iter().chain(areas::TESTS).chain(controls::TESTS).chain(senses::TESTS).chain(peers::TESTS);
+    let own = TESTS
+        .iter()
+        .chain(areas::TESTS)
+        .chain(control_table::TESTS)
+        .chain(controls::TESTS)
+        .chain(senses::TESTS)
+        .chain(peers::TESTS);
     own.chain(session::TESTS)
         .chain(doctor::TESTS)
         .chain(ctl::TESTS)
