@@ -102,7 +102,7 @@ mod tests {
         };
         assert_eq!(turned(&mut monitor, 0.0, &[0.5, 1.0, 1.5, 2.0, 2.5, 3.1, 3.05, 3.1, 3.05]), 0);
         assert_eq!(turned(&mut monitor, 0.2, &[3.1, 2.0, 1.0, 0.0]), 0, "it came away");
-        assert_eq!(turned(&mut monitor, 0.25, &[0.3, 0.6]), 1, "to and fro");
+        assert_eq!(turned(&mut monitor, 0.25, &[0.3, 0.7]), 1, "to and fro");
     }
 
     #[test]
