@@ -8,8 +8,8 @@ use super::msg::dynamic_reconfigure::{
     Reconfigure, ReconfigureReq, ReconfigureRes, StrParameter,
 };
 use super::node::{Node, NodeError};
-use rosrust::Service;
-use std::sync::Mutex;
+use rosrust::{Publisher, Service};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The name of the one group, which holds all parameters.
 const GROUP: &str = "Default";
@@ -135,21 +135,41 @@ pub fn offer(
     node: &Node,
     parameters: &[Parameter],
     change: impl Fn(Values) -> Result<Values, String> + Send + Sync + 'static,
-) -> Result<Service, NodeError> {
+) -> Result<Offer, NodeError> {
     let descriptions = node.publish_latched("~parameter_descriptions")?;
     let updates = node.publish_latched("~parameter_updates")?;
     // Nobody who listens is no error of ours.
     let _ = descriptions.send(description(parameters));
     let now: Values = parameters.iter().map(|p| (p.name.clone(), p.default.clone())).collect();
     let _ = updates.send(config(&now));
-    // The description is told as long as the service lives.
-    let one_at_a_time = Mutex::new(descriptions);
-    node.serve::<Reconfigure>("~set_parameters", move |request: ReconfigureReq| {
-        let _turn = one_at_a_time.lock();
+    let told = Arc::new(Told { _descriptions: descriptions, updates, change: Mutex::new(Box::new(change)) });
+    // rosrust keeps the handler of a service that is withdrawn: it must hold neither topics nor node.
+    let theirs = Arc::downgrade(&told);
+    let service = node.serve::<Reconfigure>("~set_parameters", move |request: ReconfigureReq| {
+        let told = theirs.upgrade().ok_or("the node is leaving")?;
+        let change = told.change.lock().unwrap_or_else(PoisonError::into_inner);
         let now = config(&change(values(&request.config))?);
-        let _ = updates.send(now.clone());
+        let _ = told.updates.send(now.clone());
         Ok(ReconfigureRes { config: now })
-    })
+    })?;
+    Ok(Offer { _service: service, _told: told })
+}
+
+/// Takes values, all or none, and tells all that hold then.
+type Change = Box<dyn Fn(Values) -> Result<Values, String> + Send + Sync>;
+
+/// What is told as long as the parameters are offered.
+struct Told {
+    _descriptions: Publisher<ConfigDescription>,
+    updates: Publisher<Config>,
+    /// One change at a time.
+    change: Mutex<Change>,
+}
+
+/// The parameters, offered as long as this lives.
+pub struct Offer {
+    _service: Service,
+    _told: Arc<Told>,
 }
 
 #[cfg(test)]

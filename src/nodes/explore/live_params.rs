@@ -9,9 +9,9 @@ use super::settings::{ExploreNodeError, Settings};
 use crate::config::{Live, LiveError, LiveParam, is_same};
 use crate::explore::Explorer;
 use crate::ros::bell::Bell;
-use crate::ros::dynamic_reconfigure::{ParamValue, Parameter, Values, offer};
+use crate::ros::dynamic_reconfigure::{Offer, ParamValue, Parameter, Values, offer};
 use crate::ros::tuning::{Tuned, Tuning};
-use crate::ros::{Node, NodeError, ParamTree, Service};
+use crate::ros::{Node, NodeError, ParamTree};
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -20,7 +20,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// server at the end: the next run may have another preset.
 pub struct LiveParams {
     shared: Arc<Shared>,
-    _service: Service,
+    _offer: Offer,
 }
 
 struct Shared {
@@ -74,8 +74,8 @@ impl LiveParams {
         shared.tell(&names);
         let parameters: Vec<Parameter> = params.iter().map(parameter).collect();
         let theirs = Arc::clone(&shared);
-        let service = offer(node, &parameters, move |asked| theirs.change(asked))?;
-        Ok(Self { shared, _service: service })
+        let offer = offer(node, &parameters, move |asked| theirs.change(asked))?;
+        Ok(Self { shared, _offer: offer })
     }
 
     /// As they are.
