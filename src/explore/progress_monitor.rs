@@ -11,8 +11,9 @@ pub struct ProgressMonitor {
     /// Where it was when it last moved at all, and when.
     still: (Pose, f64),
     has_moved: bool,
-    /// Where it has been turning, with its last heading, and how far it turned there, radians.
-    turning: (Pose, f64),
+    /// Where it has been turning, with its last heading, how far it turned there, radians, and since
+    /// when.
+    turning: (Pose, f64, f64),
 }
 
 /// Motion below this is standing still, metres and radians.
@@ -23,12 +24,14 @@ const SPOT_M: f64 = 0.1;
 /// Half a turn faces every goal: one that turned farther on the spot, to and fro or round and round,
 /// gets nowhere, radians.
 const IN_VAIN_RAD: f64 = PI + 0.6;
+/// A follower that turns at each corner of a winding way goes on within less, seconds.
+const IN_VAIN_S: f64 = 10.0;
 
 impl ProgressMonitor {
     /// Starts watching at a pose and a time in seconds.
     #[must_use]
     pub const fn new(pose: &Pose, now_s: f64) -> Self {
-        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s), has_moved: false, turning: (*pose, 0.0) }
+        Self { anchor: *pose, since_s: now_s, still: (*pose, now_s), has_moved: false, turning: (*pose, 0.0, now_s) }
     }
 
     /// Seconds since the robot was last `distance_m` away from where it is now.
@@ -51,19 +54,19 @@ impl ProgressMonitor {
         now_s - since_s
     }
 
-    /// Whether the robot has turned on the spot farther than any goal asks for.
-    pub fn turns_in_vain(&mut self, pose: &Pose) -> bool {
-        let (spot, turned_rad) = self.turning;
+    /// Whether the robot has turned on the spot farther and for longer than any goal asks for.
+    pub fn turns_in_vain(&mut self, pose: &Pose, now_s: f64) -> bool {
+        let (spot, turned_rad, since_s) = self.turning;
         if pose.distance_to(spot.position()) > SPOT_M {
-            self.turning = (*pose, 0.0);
+            self.turning = (*pose, 0.0, now_s);
             return false;
         }
         // What is less is noise of the localisation.
         let more_rad = shortest_angle(spot.yaw, pose.yaw).abs();
         if more_rad >= STILL_RAD {
-            self.turning = (Pose { yaw: pose.yaw, ..spot }, turned_rad + more_rad);
+            self.turning = (Pose { yaw: pose.yaw, ..spot }, turned_rad + more_rad, since_s);
         }
-        self.turning.1 >= IN_VAIN_RAD
+        self.turning.1 >= IN_VAIN_RAD && now_s - since_s >= IN_VAIN_S
     }
 
     /// Whether it has moved or turned since the watching began.
@@ -76,6 +79,7 @@ impl ProgressMonitor {
     pub const fn pause(&mut self, now_s: f64) {
         self.since_s = now_s;
         self.still.1 = now_s;
+        (self.turning.1, self.turning.2) = (0.0, now_s);
     }
 }
 
@@ -98,11 +102,18 @@ mod tests {
         let at = |x: f64, yaw: f64| Pose::new(x, 0.0, yaw);
         let mut monitor = ProgressMonitor::new(&at(0.0, 0.0), 0.0);
         let turned = |monitor: &mut ProgressMonitor, x: f64, yaws: &[f64]| {
-            yaws.iter().filter(|&&yaw| monitor.turns_in_vain(&at(x, yaw))).count()
+            // Four seconds from one look to the next.
+            let looks = yaws.iter().zip(1..);
+            looks.filter(|&(&yaw, i)| monitor.turns_in_vain(&at(x, yaw), 200.0 * x + 4.0 * f64::from(i))).count()
         };
         assert_eq!(turned(&mut monitor, 0.0, &[0.5, 1.0, 1.5, 2.0, 2.5, 3.1, 3.05, 3.1, 3.05]), 0);
         assert_eq!(turned(&mut monitor, 0.2, &[3.1, 2.0, 1.0, 0.0]), 0, "it came away");
         assert_eq!(turned(&mut monitor, 0.25, &[0.3, 0.7]), 1, "to and fro");
+        let mut monitor = ProgressMonitor::new(&at(0.0, 0.0), 0.0);
+        let quick = |monitor: &mut ProgressMonitor, now_s: f64, yaw: f64| monitor.turns_in_vain(&at(0.0, yaw), now_s);
+        let turns = [(1.0, 2.0), (2.0, 0.0), (3.0, 2.0), (9.9, 2.0)];
+        assert!(!turns.into_iter().any(|(now_s, yaw)| quick(&mut monitor, now_s, yaw)), "it may go on yet");
+        assert!(quick(&mut monitor, 10.0, 2.0));
     }
 
     #[test]

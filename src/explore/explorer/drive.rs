@@ -47,7 +47,7 @@ impl Explorer {
                 }
                 let stuck_s = drive.progress.stuck_for_s(&pose, now_s, patience.progress_distance_m);
                 let still_s = drive.progress.still_for_s(&pose, now_s);
-                let turns_in_vain = ours && drive.progress.turns_in_vain(&pose);
+                let turns_in_vain = ours && drive.progress.turns_in_vain(&pose, now_s);
                 // A robot that stands where its navigation cannot plan from gets no plan.
                 let wedged = still_s >= WEDGED_STILL_S
                     && self.watch.map().and_then(|map| map.costmap.as_ref()).is_some_and(|costmap| {
