@@ -32,8 +32,8 @@ pub use costmap::{
 pub(crate) use costmap::{LiveCostmap, Roomy};
 pub use distance::squared_distance_cells;
 pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
-pub use live::Snapshot;
-pub(crate) use live::{CellValues, Live, changed_rect};
+pub use live::{CellValues, Live, Snapshot};
+pub(crate) use live::changed_rect;
 pub use memory::MapMemory;
 pub use occupancy::{GridError, OccupancyGrid};
 pub use patch::{GridPatch, GridPatchError};

@@ -6,5 +6,5 @@ mod explore;
 mod sim;
 
 pub use doctor::{DoctorOptions, Finding, FindingLevel, examine};
-pub use explore::{ExploreNodeError, explore_node, explore_with};
+pub use explore::{Activity, ExploreNodeError, Session, explore_node, explore_with};
 pub use sim::{SimNodeError, sim_node, simulate_with};

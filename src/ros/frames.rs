@@ -48,7 +48,7 @@ pub struct ToldLink {
 }
 
 /// What is known of the frames, and when it came.
-pub(super) struct Frames {
+pub struct Frames {
     buffer: TransformBuffer,
     /// What was last told of each moving frame.
     told: BTreeMap<String, Told>,
@@ -56,6 +56,8 @@ pub(super) struct Frames {
 
 impl Frames {
     /// Nothing yet.
+    #[allow(clippy::new_without_default)] // a const
+    #[must_use]
     pub const fn new() -> Self {
         Self { buffer: TransformBuffer::new(HISTORY_S), told: BTreeMap::new() }
     }

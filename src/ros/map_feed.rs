@@ -3,7 +3,7 @@
 
 mod remembered;
 
-pub use remembered::Recalled;
+pub use remembered::{Recalled, Remembered};
 
 use super::bell::Bell;
 use super::convert;
@@ -14,7 +14,6 @@ use super::msg::map_msgs::OccupancyGridUpdate;
 use super::msg::nav_msgs::OccupancyGrid as MapMessage;
 use super::node::Node;
 use crate::grid::{Changes, Live, MapMemory, OccupancyGrid};
-use remembered::Remembered;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};

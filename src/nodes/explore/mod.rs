@@ -18,6 +18,7 @@ mod session;
 mod settings;
 mod watcher;
 
+pub use session::{Activity, Session};
 pub use settings::ExploreNodeError;
 
 use crate::config::{BUILTIN_ROBOTS, Preset};
@@ -36,7 +37,7 @@ use operator::{Matter, Next, Operator};
 use outputs::Outputs;
 use rules::Stage;
 use saving::MapSaver;
-use session::{Activity, Resumed, SessionKeeper};
+use session::{Resumed, SessionKeeper};
 use settings::Settings;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;

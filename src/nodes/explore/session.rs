@@ -55,6 +55,18 @@ pub struct Session {
 }
 
 impl Session {
+    /// Reads the text of a session's file.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(text: &str) -> Result<Self, String> {
+        let session: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if session.format != FORMAT {
+            return Err(format!("its format is {:?}: must be {FORMAT:?}", session.format));
+        }
+        Ok(session)
+    }
+
     /// What the node tells of what it took over.
     fn sentence(&self) -> String {
         let home = match self.memory.home {
@@ -95,10 +107,7 @@ impl Resumed {
             node.log().info(format_args!("~resume_from: {file} is not there yet: a new session begins"));
             return Ok(None);
         };
-        let session: Session = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
-        if session.format != FORMAT {
-            return Err(wrong(format!("its format is {:?}: must be {FORMAT:?}", session.format)));
-        }
+        let session = Session::parse(&text).map_err(wrong)?;
         let image = map_stem(Path::new(file)).with_extension("yaml");
         let map = match read_if_there(&image).map_err(|error| wrong(error.to_string()))? {
             Some(_) => Some(load_map(&image).map_err(|error| wrong(error.to_string()))?.grid),

@@ -5,4 +5,4 @@ mod goal_book;
 mod goal_tracker;
 
 pub(crate) use goal_book::{Entry, GoalBook, is_meant};
-pub(crate) use goal_tracker::{GoalStatus, GoalTracker};
+pub use goal_tracker::{GoalStatus, GoalTracker};
