@@ -34,9 +34,14 @@ impl Range {
         Ranged { key, value: value.into(), range: self }
     }
 
+    /// Whether a number lies in this range.
+    pub(crate) const fn holds(&self, value: f64) -> bool {
+        self.least <= value && value <= self.most
+    }
+
     /// The error unless the number lies in this range.
     const fn check(&self, key: &'static str, value: f64) -> Result<(), OutOfRange> {
-        OutOfRange::unless(self.least <= value && value <= self.most, key, value, self.words)
+        OutOfRange::unless(self.holds(value), key, value, self.words)
     }
 }
 

@@ -15,7 +15,7 @@ const ROOMS: &[(&str, &[&[&str]])] = &[
     // Floor 0: data.
     ("range", &[]),
     ("text", &[]),
-    ("geometry", &[]),
+    ("geometry", &[&["range"]]),
     ("scan", &[&["geometry"]]),
     ("tf", &[&["geometry"]]),
     ("grid", &[&["geometry"]]),

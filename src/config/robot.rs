@@ -138,7 +138,7 @@ impl RobotConfig {
     /// The ranges of all numbers, by their paths.
     pub(super) fn ranges(&self) -> BTreeMap<String, Range> {
         // Checked by `Footprint::validate`.
-        let radius = ("footprint.radius_m".to_owned(), Range::POSITIVE);
+        let radius = ("footprint.radius_m".to_owned(), Footprint::RADIUS);
         self.numbers().into_iter().map(|n| (n.key.to_owned(), n.range)).chain([radius]).collect()
     }
 
@@ -150,14 +150,11 @@ impl RobotConfig {
             ("limits.max_angular_rps", limits.max_angular_rps),
             ("limits.max_linear_mps2", limits.max_linear_mps2),
             ("limits.max_angular_rps2", limits.max_angular_rps2),
-            ("lidar.rate_hz", lidar.rate_hz),
-            ("costmap.inflation_radius_m", costmap.inflation_radius_m),
         ];
         let not_negative = [
             ("lidar.range_min_m", lidar.range_min_m),
             ("lidar.noise_std_m", lidar.noise_std_m),
             ("costmap.cost_scaling_factor", costmap.cost_scaling_factor),
-            ("costmap.padding_m", costmap.padding_m),
         ];
         let mount =
             [("lidar.mount.x", lidar.mount.x), ("lidar.mount.y", lidar.mount.y), ("lidar.mount.yaw", lidar.mount.yaw)];
@@ -169,6 +166,10 @@ impl RobotConfig {
         numbers.push(longest.of("lidar.range_max_m", lidar.range_max_m));
         numbers.push(opening.of("lidar.field_of_view_rad", lidar.field_of_view_rad));
         numbers.push(Range::within(1.0, 1e5, "1 to 100000").of("lidar.rays", f64::from(lidar.rays)));
+        numbers.push(Range::within(0.01, 1e3, "0.01 to 1000").of("lidar.rate_hz", lidar.rate_hz));
+        let inflated = Range::above(0.0, 100.0, "above 0 and at most 100");
+        numbers.push(inflated.of("costmap.inflation_radius_m", costmap.inflation_radius_m));
+        numbers.push(Range::within(0.0, 100.0, "0 to 100").of("costmap.padding_m", costmap.padding_m));
         numbers
     }
 }

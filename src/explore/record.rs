@@ -233,3 +233,22 @@ pub struct Counts {
     /// Times that frontiers were detected.
     pub detections: usize,
 }
+
+impl Counts {
+    /// What a file may say was counted: more would soon not fit the numbers.
+    const MOST: usize = 1_000_000_000;
+
+    /// The same, with each held within what can have been counted.
+    pub(super) fn believable(&self) -> Self {
+        let held = |count: usize| count.min(Self::MOST);
+        Self {
+            goals_sent: held(self.goals_sent),
+            goals_reached: held(self.goals_reached),
+            goals_failed: held(self.goals_failed),
+            turns: held(self.turns),
+            recoveries: held(self.recoveries),
+            back_offs: held(self.back_offs),
+            detections: held(self.detections),
+        }
+    }
+}

@@ -1,18 +1,25 @@
 //! The outline of a robot seen from above, as move_base's costmaps take it.
 
 use super::{Point, Pose};
+use crate::range::Range;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// No robot is larger, metres: an outline of points for each cell has its limit.
+const LARGEST_M: f64 = 100.0;
 
 /// Why a footprint cannot be one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FootprintError {
-    /// A radius that is not a positive number of metres.
-    #[error("footprint.radius_m is {0}: must be finite and > 0")]
+    /// A radius that no robot has.
+    #[error("footprint.radius_m is {0}: must be {words}", words = Footprint::RADIUS.words)]
     Radius(f64),
     /// Too few corners, or a corner that is not finite.
     #[error("a footprint polygon needs at least 3 finite corners, and {0} usable ones were given")]
     Corners(usize),
+    /// A corner that no robot has.
+    #[error("a footprint polygon's corner ({0}, {1}): must be at most {LARGEST_M} m away along each axis")]
+    Far(f64, f64),
     /// The body's centre, around which it turns, lies outside.
     #[error("the footprint polygon must contain the base frame's origin")]
     OriginOutside,
@@ -29,18 +36,24 @@ pub enum Footprint {
 }
 
 impl Footprint {
+    /// What the radius may be.
+    pub(crate) const RADIUS: Range = Range::above(0.0, LARGEST_M, "above 0 and at most 100");
+
     /// Checks the numbers.
     ///
     /// # Errors
     /// [`FootprintError`] that names what is wrong.
     pub fn validate(&self) -> Result<(), FootprintError> {
         match self {
-            Self::RadiusM(radius) if radius.is_finite() && *radius > 0.0 => Ok(()),
+            Self::RadiusM(radius) if Self::RADIUS.holds(*radius) => Ok(()),
             Self::RadiusM(radius) => Err(FootprintError::Radius(*radius)),
             Self::PolygonM(corners) => {
                 let finite = corners.iter().flatten().all(|c| c.is_finite());
                 let polygon = if finite { super::Polygon::try_from(corners.clone()).ok() } else { None };
                 let polygon = polygon.ok_or(FootprintError::Corners(corners.len().min(2)))?;
+                if let Some(&[x, y]) = corners.iter().find(|corner| corner.iter().any(|c| c.abs() > LARGEST_M)) {
+                    return Err(FootprintError::Far(x, y));
+                }
                 if polygon.contains(Point::origin()) { Ok(()) } else { Err(FootprintError::OriginOutside) }
             }
         }
@@ -148,6 +161,10 @@ mod tests {
     fn impossible_footprints_are_refused() {
         assert!(matches!(Footprint::RadiusM(0.0).validate(), Err(FootprintError::Radius(_))));
         assert!(matches!(Footprint::PolygonM(vec![[0.0, 0.0]]).validate(), Err(FootprintError::Corners(_))));
+        assert!(Footprint::RadiusM(1e9).validate().is_err());
+        let vast = Footprint::PolygonM(vec![[-1.0, -1.0], [1e9, 0.0], [-1.0, 1.0]]);
+        let error = vast.validate().unwrap_err().to_string();
+        assert!(error.contains("(1000000000, 0): must be at most 100 m away"), "{error}");
         let aside = Footprint::PolygonM(vec![[1.0, 1.0], [2.0, 1.0], [2.0, 2.0]]);
         assert_eq!(aside.validate(), Err(FootprintError::OriginOutside));
     }

@@ -1,5 +1,6 @@
 //! Where a grid lies in the world: the one place of all cell/world mathematics.
 
+use super::Cell;
 use crate::geometry::{Point, Pose, shortest_angle};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +8,7 @@ use serde::{Deserialize, Serialize};
 /// The most cells a grid may have: 16384 x 16384.
 pub const MAX_CELLS: u64 = 1 << 28;
 /// How large a cell may be, metres: what lies beyond is no map of a place.
-const CELL_M: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
+const CELL_M: std::ops::RangeInclusive<f64> = 1e-3..=1e3;
 /// The farthest that a grid may lie, metres: twice round the earth.
 const FARTHEST_M: f64 = 1e8;
 /// So far a cell may be off and be the same, as a share of it: origins are computed anew.
@@ -68,41 +69,11 @@ impl From<Neighbourhood> for u8 {
     }
 }
 
-/// A cell by column and row; it may lie outside a given grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Cell {
-    /// Column, from the grid's origin along its x axis.
-    pub x: i32,
-    /// Row, from the grid's origin along its y axis.
-    pub y: i32,
-}
-
-impl Cell {
-    /// A cell by column and row.
-    #[must_use]
-    pub const fn new(x: i32, y: i32) -> Self {
-        Self { x, y }
-    }
-
-    /// The cell at an offset from this one.
-    #[must_use]
-    pub const fn offset(self, (dx, dy): (i32, i32)) -> Self {
-        Self { x: self.x + dx, y: self.y + dy }
-    }
-
-    /// Squared Euclidean distance to another cell, in cells.
-    #[must_use]
-    pub const fn distance_squared(self, other: Self) -> i64 {
-        let (dx, dy) = ((self.x - other.x) as i64, (self.y - other.y) as i64);
-        dx * dx + dy * dy
-    }
-}
-
 /// Why numbers do not describe a grid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GridInfoError {
     /// The edge length of a cell is not usable.
-    #[error("resolution {0} m per cell: must be within 0.000001 to 1000")]
+    #[error("resolution {0} m per cell: must be within 0.001 to 1000")]
     Resolution(f64),
     /// No cells, or more than fit in memory.
     #[error("a grid of {width} x {height} cells: must have at least 1 and at most {MAX_CELLS} cells")]
@@ -239,11 +210,11 @@ impl GridInfo {
     }
 
     /// The cell that holds a point of the map frame; it may lie outside the grid.
-    /// Points beyond 2^31 cells are held at that bound.
+    /// Points beyond 2^30 cells are held at that bound.
     #[must_use]
     pub fn cell_at(&self, point_in_map: Point) -> Cell {
         let (x, y) = self.to_grid_units(point_in_map);
-        Cell::new(floor(x), floor(y))
+        Cell::of_units(x, y)
     }
 
     /// Centre of a cell in the map frame, also for cells outside the grid.
@@ -286,13 +257,6 @@ impl GridInfo {
     pub fn cells(&self, length_m: f64) -> f64 {
         length_m / self.resolution_m
     }
-}
-
-/// The largest whole number that is not greater, kept within the range of the type: as
-/// `value.floor() as i32`, without a call into the mathematics library.
-const fn floor(value: f64) -> i32 {
-    let truncated = value as i32;
-    if truncated as f64 > value { truncated.saturating_sub(1) } else { truncated }
 }
 
 #[cfg(test)]

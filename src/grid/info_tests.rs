@@ -57,14 +57,6 @@ proptest! {
     }
 }
 
-#[test]
-fn floors_are_those_of_the_library() {
-    let extreme = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -3e9, 3e9, f64::from(i32::MIN) - 0.5];
-    for value in (-40..40).map(|i| f64::from(i) * 0.25).chain(extreme) {
-        assert_eq!(floor(value), value.floor() as i32, "{value}");
-    }
-}
-
 /// Against the formulas of move_base's planners: costmap_2d's `worldToMap`, and
 /// GlobalPlanner's, which takes half a cell off and truncates.
 #[test]

@@ -5,6 +5,7 @@
 //! where they are read or written and nowhere else.
 
 mod area_cells;
+mod cell;
 mod census;
 mod changes;
 mod costmap;
@@ -22,6 +23,7 @@ mod state;
 mod vertical;
 
 pub use area_cells::{AreaCells, AreaCensus};
+pub use cell::Cell;
 pub use census::Census;
 pub(crate) use census::LiveCensus;
 pub use changes::Changes;
@@ -31,9 +33,9 @@ pub use costmap::{
 };
 pub(crate) use costmap::{LiveCostmap, Roomy};
 pub use distance::squared_distance_cells;
-pub use info::{Cell, GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
-pub use live::{CellValues, Live, Snapshot};
+pub use info::{GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
 pub(crate) use live::changed_rect;
+pub use live::{CellValues, Live, Snapshot};
 pub use memory::MapMemory;
 pub use occupancy::{GridError, OccupancyGrid};
 pub use patch::{GridPatch, GridPatchError};

@@ -48,7 +48,7 @@ impl Traversal {
         let (step_x, next_x, delta_x) = axis(x, dx);
         let (step_y, next_y, delta_y) = axis(y, dy);
         Self {
-            cell: Cell::new(x.floor() as i32, y.floor() as i32),
+            cell: Cell::of_units(x, y),
             step: (step_x, step_y),
             next: (next_x, next_y),
             delta: (delta_x, delta_y),

@@ -52,7 +52,7 @@ impl LikelihoodField {
     pub fn smooth(&self, blur: &Blur, point: Point) -> (f64, f64, f64) {
         let (x, y) = self.info.to_grid_units(point);
         let (x, y) = (x - 0.5, y - 0.5);
-        let corner = Cell::new(x.floor() as i32, y.floor() as i32);
+        let corner = Cell::of_units(x, y);
         let (u, v) = (x - x.floor(), y - y.floor());
         let value = |dx: i32, dy: i32| self.of_cell(blur, corner.offset((dx, dy)));
         let (a, b, c, d) = (value(0, 0), value(1, 0), value(0, 1), value(1, 1));

@@ -44,7 +44,7 @@ pub use embedded_master::{EmbeddedMasterError, start_embedded_master};
 pub use feed::Feed;
 pub use frames::{Frames, ToldLink};
 pub use log::{Level, Log};
-pub use map_feed::{ReceivedMap, Recalled, Remembered, receive_map};
+pub use map_feed::{Recalled, ReceivedMap, Remembered, receive_map};
 pub use master::{MasterError, probe};
 pub use node::{Node, NodeError};
 pub(crate) use params::ParamTree;

@@ -31,7 +31,8 @@ thread_local! {
 
 /// A replay, by the recorded map or by one made of the scans, as the number of the bytes says.
 fn replay(input: &[u8]) -> Answer {
-    let path = FOLDER.with_borrow_mut(|folder| folder.get_or_insert_with(|| tempfile::tempdir().unwrap()).path().join("bag"));
+    let path =
+        FOLDER.with_borrow_mut(|folder| folder.get_or_insert_with(|| tempfile::tempdir().unwrap()).path().join("bag"));
     // Mapped into memory by the last one.
     let _ = std::fs::remove_file(&path);
     std::fs::write(&path, input).unwrap();

@@ -13,8 +13,8 @@ use std::time::{Duration, Instant};
 const LIMIT_S: u64 = 5;
 /// How long a target is tried where nothing else is said, seconds.
 const DEFAULT_S: f64 = 1.0;
-/// So many inputs with answers of their own are kept to be changed further.
-const MOST_KEPT: usize = 4000;
+/// So many kinds of answers are told apart.
+const MOST_KINDS: usize = 10_000;
 /// What a target makes of an input: what it is taken for, or why it is refused.
 pub type Answer = Result<String, String>;
 
@@ -72,8 +72,8 @@ impl Target {
             let answer = self.try_one(&input, &watch);
             tried += 1;
             taken += u64::from(answer.is_ok());
-            if kinds.len() < MOST_KEPT && kinds.insert(kind(&answer)) {
-                mutator.keep(input);
+            if kinds.len() < MOST_KINDS && kinds.insert(kind(&answer)) {
+                mutator.keep(input, answer.is_ok());
             }
         }
         let percent = 100.0 * taken as f64 / tried.max(1) as f64;
@@ -113,7 +113,7 @@ fn kind(answer: &Answer) -> String {
         is_quoted ^= matches!(c, '"' | '\'' | '`');
         !is_quoted && !c.is_numeric()
     });
-    answer.is_ok().then_some('+').into_iter().chain(words.take(100)).collect()
+    answer.is_ok().then_some('+').into_iter().chain(words.take(60)).collect()
 }
 
 /// Ends the process when an input takes too long.

@@ -7,25 +7,88 @@ use std::ops::Range;
 
 /// Numbers at the ends of what types hold, as texts.
 const NUMBERS: &[&str] = &[
-    "0", "-1", "1", "-0.0", "1e-320", "1e-9", "0.5", "1e6", "1e9", "1e30", "1e308", "-1e308", "1e999", "nan", "NaN",
-    ".nan", "inf", "-inf", ".inf", "-.inf", "null", "true", "\"\"", "[]", "{}", "127", "255", "32768", "65535",
-    "2147483647", "2147483648", "-2147483648", "4294967295", "4294967296", "9007199254740993", "9223372036854775807",
-    "9223372036854775808", "18446744073709551615", "18446744073709551616", "340282350000000000000000000000000000000",
+    "0",
+    "-1",
+    "1",
+    "-0.0",
+    "1e-320",
+    "1e-9",
+    "0.5",
+    "1e6",
+    "1e9",
+    "1e30",
+    "1e308",
+    "-1e308",
+    "1e999",
+    "nan",
+    "NaN",
+    ".nan",
+    "inf",
+    "-inf",
+    ".inf",
+    "-.inf",
+    "null",
+    "true",
+    "\"\"",
+    "[]",
+    "{}",
+    "127",
+    "255",
+    "32768",
+    "65535",
+    "2147483647",
+    "2147483648",
+    "-2147483648",
+    "4294967295",
+    "4294967296",
+    "9007199254740993",
+    "9223372036854775807",
+    "9223372036854775808",
+    "18446744073709551615",
+    "18446744073709551616",
+    "340282350000000000000000000000000000000",
 ];
 /// The same for four bytes.
 const WORDS: &[u32] = &[0, 1, 2, 4, 255, 256, 65_535, 65_536, 1 << 24, 1 << 28, i32::MAX as u32, 1 << 31, u32::MAX];
 /// The same for numbers with a point, of four and of eight bytes.
 const FLOATS: &[f64] = &[
-    0.0, -0.0, 1.0, -1.0, 0.5, 1e-45, 1e-9, 1e-6, 1e-3, 100.0, 1e3, 1e6, 1e9, 1e30, 1e38, 1e300, f64::MAX, f64::MIN,
-    f64::MIN_POSITIVE, f64::INFINITY, f64::NEG_INFINITY, f64::NAN,
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    0.5,
+    1e-45,
+    1e-9,
+    1e-6,
+    1e-3,
+    100.0,
+    1e3,
+    1e6,
+    1e9,
+    1e30,
+    1e38,
+    1e300,
+    f64::MAX,
+    f64::MIN,
+    f64::MIN_POSITIVE,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
 ];
+/// So many inputs with answers of their own are changed further: of those that were taken, and of
+/// those that were refused.
+const MOST_TAKEN: usize = 2000;
+const MOST_REFUSED: usize = 200;
+/// So many bytes are changed as often as all of an input.
+const HEAD: usize = 120;
 /// Changed inputs are no longer than so many times the longest of the corpus, and some bytes.
 const LONGEST: (usize, usize) = (2, 2000);
 
 /// Makes inputs of others.
 pub struct Mutator {
     random: Pcg64,
-    kept: Vec<Vec<u8>>,
+    taken: Vec<Vec<u8>>,
+    refused: Vec<Vec<u8>>,
     longest: usize,
 }
 
@@ -33,12 +96,16 @@ impl Mutator {
     /// Begins with a corpus.
     pub fn new(seed: u64, corpus: &[Vec<u8>]) -> Self {
         let longest = corpus.iter().map(Vec::len).max().expect("a corpus");
-        Self { random: Pcg64::seed_from_u64(seed), kept: corpus.to_vec(), longest: LONGEST.0 * longest + LONGEST.1 }
+        let longest = LONGEST.0 * longest + LONGEST.1;
+        Self { random: Pcg64::seed_from_u64(seed), taken: corpus.to_vec(), refused: Vec::new(), longest }
     }
 
     /// Changes this input further, too.
-    pub fn keep(&mut self, input: Vec<u8>) {
-        self.kept.push(input);
+    pub fn keep(&mut self, input: Vec<u8>, is_taken: bool) {
+        let (kept, most) = if is_taken { (&mut self.taken, MOST_TAKEN) } else { (&mut self.refused, MOST_REFUSED) };
+        if kept.len() < most {
+            kept.push(input);
+        }
     }
 
     /// An input with one to eight changes; mostly few.
@@ -52,8 +119,11 @@ impl Mutator {
         input
     }
 
+    /// One of those that are changed: seldom one that was refused.
     fn any(&mut self) -> &Vec<u8> {
-        &self.kept[self.random.random_range(0..self.kept.len())]
+        let is_refused = !self.refused.is_empty() && self.random.random_range(0..10) == 0;
+        let kept = if is_refused { &self.refused } else { &self.taken };
+        &kept[self.random.random_range(0..kept.len())]
     }
 
     fn change(&mut self, input: &mut Vec<u8>) {
@@ -61,7 +131,9 @@ impl Mutator {
         if input.is_empty() {
             return input.push(random.random());
         }
-        let at = random.random_range(0..input.len());
+        // What says how the rest is to be read stands at the beginning.
+        let head = if random.random() { input.len() } else { input.len().min(HEAD) };
+        let at = random.random_range(0..head);
         match random.random_range(0..14) {
             0 => input[at] ^= 1 << random.random_range(0..8),
             1 => input[at] = *[0, 1, 0x7f, 0x80, 0xff, b' ', b'\n', b'-', b'['].choose(random).unwrap(),

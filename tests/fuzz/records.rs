@@ -40,7 +40,14 @@ fn run(input: &[u8]) -> Answer {
 
 #[test]
 fn sessions() {
-    Target { name: "sessions", run: session, seeds: sessions_after_a_while, memory: (64 << 20, 500), least_taken_percent: 5.0 }.fuzz();
+    Target {
+        name: "sessions",
+        run: session,
+        seeds: sessions_after_a_while,
+        memory: (64 << 20, 500),
+        least_taken_percent: 5.0,
+    }
+    .fuzz();
 }
 
 /// An explorer that goes on with a session.

@@ -4,6 +4,9 @@ use super::{Blacklist, Entry, Visit};
 use crate::geometry::Point;
 use serde::{Deserialize, Serialize};
 
+/// A file may say that a target failed so often: more would soon not fit the numbers.
+const MOST: u32 = 1_000_000;
+
 /// A target that failed. Points are metres of the map frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct SavedEntry {
@@ -56,10 +59,10 @@ impl Blacklist {
         let entry = |saved: &SavedEntry| Entry {
             target: Point::from(saved.target),
             place: Point::from(saved.place),
-            failures: saved.failures,
-            this_round: saved.this_round,
-            rounds: saved.rounds,
-            openings: saved.openings,
+            failures: saved.failures.min(MOST),
+            this_round: saved.this_round.min(MOST),
+            rounds: saved.rounds.min(MOST),
+            openings: saved.openings.min(MOST),
             why: saved.why.clone(),
         };
         self.clear();
