@@ -21,6 +21,9 @@ use crate::grid::{CellRect, GridInfoError, Live, OccupancyGrid};
 use crate::range::OutOfRange;
 use crate::scan::{LaserScan, Reading};
 
+/// A beam that ends farther away than this, in cells, is held there: no window reaches so far.
+const FARTHEST_CELLS: f64 = 1e12;
+
 /// Why a scan cannot be put into the map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MapperError {
@@ -152,7 +155,8 @@ impl Mapper {
             high = (high.0.max(x), high.1.max(y));
         }
         // The cell that is hit may be the one beyond the end.
-        let cell = |(x, y): (f64, f64), by: f64| ((x + by).floor() as i64, (y + by).floor() as i64);
+        let held = |value: f64| value.floor().clamp(-FARTHEST_CELLS, FARTHEST_CELLS) as i64;
+        let cell = |(x, y): (f64, f64), by: f64| (held(x + by), held(y + by));
         let chunk = (self.config.growth_m / self.config.resolution_m).ceil() as i64;
         let (low, high) = (cell(low, -1.0), cell(high, 1.0));
         let grown = self.window.grown_to(low, high, chunk)?;

@@ -9,8 +9,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-/// An input that takes longer has failed, however slow the machine.
-const LIMIT_S: u64 = 5;
+/// An input that takes longer has failed, however slow the machine; `FRONTIER_FUZZ_LIMIT_S` says
+/// another limit.
+const LIMIT_S: f64 = 10.0;
 /// How long a target is tried where nothing else is said, seconds.
 const DEFAULT_S: f64 = 1.0;
 /// So many kinds of answers are told apart.
@@ -132,11 +133,12 @@ impl Watch {
         let file = std::fs::File::create(&path).unwrap();
         let (since_ms, epoch) = (Arc::new(AtomicU64::new(0)), Instant::now());
         let (theirs, shown) = (Arc::downgrade(&since_ms), path.display().to_string());
+        let limit_s = setting("FRONTIER_FUZZ_LIMIT_S").unwrap_or(LIMIT_S);
         std::thread::spawn(move || {
             while let Some(since_ms) = theirs.upgrade() {
                 let since_ms = since_ms.load(Ordering::Relaxed);
-                if since_ms > 0 && epoch.elapsed().as_millis() as u64 > since_ms + 1000 * LIMIT_S {
-                    eprintln!("{name}: the input in {shown} takes longer than {LIMIT_S} s");
+                if since_ms > 0 && epoch.elapsed().as_millis() as u64 > since_ms + (1000.0 * limit_s) as u64 {
+                    eprintln!("{name}: the input in {shown} takes longer than {limit_s} s");
                     std::process::exit(101);
                 }
                 std::thread::sleep(Duration::from_millis(100));

@@ -209,3 +209,13 @@ fn a_pose_nowhere_and_an_endless_ray_are_errors_and_change_nothing() {
     assert!(matches!(mapper.integrate(&Pose::default(), &scan), Err(MapperError::TooLarge(_))));
     assert_eq!(mapper.known_cells(), 0);
 }
+
+#[test]
+fn a_pose_beyond_all_cells_is_an_error_and_no_overflow() {
+    let mut mapper = at_origin(MapStyle::Gmapping);
+    let scan = LaserScan { range_max_m: 5.0, ranges_m: vec![1.0; 8], angle_increment_rad: 0.7, ..LaserScan::default() };
+    for far_m in [1e18, -1e18, 1e300, -1e300] {
+        let added = mapper.integrate(&Pose::new(far_m, 0.0, 0.0), &scan);
+        assert!(matches!(added, Err(MapperError::TooLarge(_))), "{far_m}: {added:?}");
+    }
+}
