@@ -151,14 +151,11 @@ impl RobotConfig {
             ("limits.max_linear_mps2", limits.max_linear_mps2),
             ("limits.max_angular_rps2", limits.max_angular_rps2),
         ];
-        let not_negative = [
-            ("lidar.range_min_m", lidar.range_min_m),
-            ("lidar.noise_std_m", lidar.noise_std_m),
-            ("costmap.cost_scaling_factor", costmap.cost_scaling_factor),
-        ];
+        let not_negative =
+            [("lidar.range_min_m", lidar.range_min_m), ("costmap.cost_scaling_factor", costmap.cost_scaling_factor)];
         let mount =
             [("lidar.mount.x", lidar.mount.x), ("lidar.mount.y", lidar.mount.y), ("lidar.mount.yaw", lidar.mount.yaw)];
-        let longest = Range::above(lidar.range_min_m, f64::MAX, "finite and > range_min_m");
+        let longest = Range::above(lidar.range_min_m, 1e3, "> range_min_m and at most 1000");
         let opening = Range::above(0.0, TAU + 1e-6, "above 0 and at most 2 pi");
         let mut numbers = positive.map(|(key, value)| Range::POSITIVE.of(key, value)).to_vec();
         numbers.extend(not_negative.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)));
@@ -167,9 +164,41 @@ impl RobotConfig {
         numbers.push(opening.of("lidar.field_of_view_rad", lidar.field_of_view_rad));
         numbers.push(Range::within(1.0, 1e5, "1 to 100000").of("lidar.rays", f64::from(lidar.rays)));
         numbers.push(Range::within(0.01, 1e3, "0.01 to 1000").of("lidar.rate_hz", lidar.rate_hz));
+        // The map grows by what noise lets a wall be seen at.
+        numbers.push(Range::within(0.0, 10.0, "0 to 10").of("lidar.noise_std_m", lidar.noise_std_m));
         let inflated = Range::above(0.0, 100.0, "above 0 and at most 100");
         numbers.push(inflated.of("costmap.inflation_radius_m", costmap.inflation_radius_m));
         numbers.push(Range::within(0.0, 100.0, "0 to 100").of("costmap.padding_m", costmap.padding_m));
         numbers
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::builtin_robot;
+    use super::*;
+
+    #[test]
+    fn robots_that_nobody_can_build_are_refused() {
+        let check = |change: &dyn Fn(&mut RobotConfig), expected: &str| {
+            let mut robot = builtin_robot("turtlebot2").unwrap();
+            change(&mut robot);
+            assert_eq!(robot.validate().unwrap_err().to_string(), expected);
+        };
+        check(
+            &|r| r.footprint = Footprint::RadiusM(1e9),
+            "footprint.radius_m is 1000000000: must be above 0 and at most 100",
+        );
+        check(
+            &|r| r.lidar.range_max_m = 1e30,
+            &format!("lidar.range_max_m is {}: must be > range_min_m and at most 1000", 1e30),
+        );
+        check(&|r| r.lidar.noise_std_m = 127.0, "lidar.noise_std_m is 127: must be 0 to 10");
+        check(&|r| r.lidar.rate_hz = 1e308, &format!("lidar.rate_hz is {}: must be 0.01 to 1000", 1e308));
+        check(&|r| r.costmap.padding_m = 101.0, "costmap.padding_m is 101: must be 0 to 100");
+        check(
+            &|r| r.costmap.inflation_radius_m = 101.0,
+            "costmap.inflation_radius_m is 101: must be above 0 and at most 100",
+        );
     }
 }

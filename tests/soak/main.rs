@@ -41,6 +41,10 @@ const FAULTS: &[&str] = &["dead_move_base", "drop_tf", "abort_goals", "stop_map"
 const SETTLED_S: f64 = 1800.0;
 /// What it may use more at the end: descriptors, threads, and memory as a share and in MB.
 const MORE: (u64, u64, f64, f64) = (5, 5, 0.2, 5.0);
+/// A publisher sees that a subscriber has died when it sends the next message, so that those of a
+/// topic that is silent, as `cmd_vel` while move_base drives, stay until then: for each life of the
+/// simulated robot so many.
+const DEAD_A_ROUND: u64 = 2;
 const SOON: Duration = Duration::from_secs(30);
 
 fn hours() -> f64 {
@@ -89,7 +93,9 @@ impl<T: rosrust::Message> Newest<T> {
 /// What a process uses of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Use {
+    /// But for connections to processes that have died.
     descriptors: u64,
+    dead: u64,
     threads: u64,
     memory_mb: f64,
 }
@@ -102,8 +108,18 @@ impl Use {
             let rest = status.lines().find_map(|line| line.strip_prefix(name)).unwrap();
             rest.split_whitespace().next().unwrap().parse().unwrap()
         };
+        let links =
+            std::fs::read_dir(own.join("fd")).unwrap().filter_map(|fd| std::fs::read_link(fd.unwrap().path()).ok());
+        let links: Vec<String> = links.map(|link| link.to_string_lossy().into_owned()).collect();
+        let tables = ["net/tcp", "net/tcp6"].map(|table| std::fs::read_to_string(own.join(table)).unwrap_or_default());
+        // The fourth column is the state, 8 where the other side has left, and the tenth the socket.
+        let left = |line: &&str| line.split_whitespace().nth(3) == Some("08");
+        let socket = |line: &str| format!("socket:[{}]", line.split_whitespace().nth(9).unwrap_or_default());
+        let dead = tables.iter().flat_map(|table| table.lines()).filter(left).map(socket);
+        let dead = dead.filter(|socket| links.contains(socket)).count() as u64;
         Self {
-            descriptors: std::fs::read_dir(own.join("fd")).unwrap().count() as u64,
+            descriptors: links.len() as u64 - dead,
+            dead,
             threads: number("Threads:"),
             memory_mb: number("VmRSS:") as f64 / 1024.0,
         }
@@ -116,17 +132,19 @@ impl Use {
             std::thread::sleep(Duration::from_millis(50));
             let now = Self::of(process);
             least.descriptors = least.descriptors.min(now.descriptors);
+            least.dead = least.dead.min(now.dead);
             least.threads = least.threads.min(now.threads);
             least.memory_mb = least.memory_mb.min(now.memory_mb);
         }
         least
     }
 
-    /// What is too much more than before.
-    fn grown_since(&self, before: &Self) -> Option<String> {
+    /// What is too much more than so many rounds before.
+    fn grown_since(&self, before: &Self, rounds: u64) -> Option<String> {
         let (descriptors, threads, share, mb) = MORE;
         let most_mb = (before.memory_mb * (1.0 + share)).max(before.memory_mb + mb);
         let is_flat = self.descriptors <= before.descriptors + descriptors
+            && self.dead <= before.dead + DEAD_A_ROUND * rounds
             && self.threads <= before.threads + threads
             && self.memory_mb <= most_mb;
         (!is_flat).then(|| format!("{self:?} after {before:?}"))
@@ -174,9 +192,9 @@ impl Soak {
             let ends = &self.ends;
             std::fs::write(figures(), format!("{table}explorations ended: {ends:?}\n")).unwrap();
             match before {
-                None if total_s >= settled_s => before = Some(now),
-                Some(before) if total_s >= wanted_s => {
-                    let grown = now.grown_since(&before);
+                None if total_s >= settled_s => before = Some((now, self.rounds)),
+                Some((before, rounds)) if total_s >= wanted_s => {
+                    let grown = now.grown_since(&before, (self.rounds - rounds) as u64);
                     assert!(grown.is_none(), "{}\n{table}{}", grown.unwrap_or_default(), self.story());
                 }
                 _ => {}
