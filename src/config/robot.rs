@@ -145,19 +145,20 @@ impl RobotConfig {
     /// The numbers with their ranges, but for those of the footprint.
     fn numbers(&self) -> Vec<Ranged> {
         let (limits, lidar, costmap) = (&self.limits, &self.lidar, &self.costmap);
-        let positive = [
-            ("limits.max_linear_mps", limits.max_linear_mps),
-            ("limits.max_angular_rps", limits.max_angular_rps),
-            ("limits.max_linear_mps2", limits.max_linear_mps2),
-            ("limits.max_angular_rps2", limits.max_angular_rps2),
-        ];
+        let positive =
+            [("limits.max_linear_mps2", limits.max_linear_mps2), ("limits.max_angular_rps2", limits.max_angular_rps2)];
         let not_negative =
             [("lidar.range_min_m", lidar.range_min_m), ("costmap.cost_scaling_factor", costmap.cost_scaling_factor)];
         let mount =
             [("lidar.mount.x", lidar.mount.x), ("lidar.mount.y", lidar.mount.y), ("lidar.mount.yaw", lidar.mount.yaw)];
         let longest = Range::above(lidar.range_min_m, 1e3, "> range_min_m and at most 1000");
         let opening = Range::above(0.0, TAU + 1e-6, "above 0 and at most 2 pi");
-        let mut numbers = positive.map(|(key, value)| Range::POSITIVE.of(key, value)).to_vec();
+        let fast = Range::above(0.0, 100.0, "above 0 and at most 100");
+        let mut numbers = vec![
+            fast.of("limits.max_linear_mps", limits.max_linear_mps),
+            fast.of("limits.max_angular_rps", limits.max_angular_rps),
+        ];
+        numbers.extend(positive.map(|(key, value)| Range::POSITIVE.of(key, value)));
         numbers.extend(not_negative.map(|(key, value)| Range::NOT_NEGATIVE.of(key, value)));
         numbers.extend(mount.map(|(key, value)| Range::FINITE.of(key, value)));
         numbers.push(longest.of("lidar.range_max_m", lidar.range_max_m));
@@ -192,6 +193,10 @@ mod tests {
         check(
             &|r| r.lidar.range_max_m = 1e30,
             &format!("lidar.range_max_m is {}: must be > range_min_m and at most 1000", 1e30),
+        );
+        check(
+            &|r| r.limits.max_linear_mps = 1e9,
+            "limits.max_linear_mps is 1000000000: must be above 0 and at most 100",
         );
         check(&|r| r.lidar.noise_std_m = 127.0, "lidar.noise_std_m is 127: must be 0 to 10");
         check(&|r| r.lidar.rate_hz = 1e308, &format!("lidar.rate_hz is {}: must be 0.01 to 1000", 1e308));

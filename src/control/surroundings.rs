@@ -13,6 +13,8 @@ use crate::grid::{Cell, GridInfo, GridInfoError, LETHAL_COST, squared_distance_c
 
 /// Edge of a cell of the local grid, metres.
 const CELL_M: f64 = 0.05;
+/// No farther is looked for obstacles, metres.
+const FARTHEST_M: f64 = 50.0;
 
 /// Obstacles within reach of the robot.
 #[derive(Clone, Debug)]
@@ -25,13 +27,15 @@ pub struct Surroundings {
 }
 
 impl Surroundings {
-    /// The obstacles within `reach_m` of the robot to either side.
+    /// The obstacles within `reach_m` of the robot to either side, at most [`FARTHEST_M`].
     ///
     /// # Errors
     /// [`GridInfoError`] when the pose or the reach is no finite number.
     pub fn new(input: &ControlInput<'_>, reach_m: f64) -> Result<Self, GridInfoError> {
         let robot = input.pose_in_map;
-        let side = (2.0 * reach_m / CELL_M).ceil() as u32 + 1;
+        // A reach that is no number stays one, and makes no grid.
+        let reach_m = if reach_m > FARTHEST_M { FARTHEST_M } else { reach_m };
+        let side = if reach_m.is_nan() { 0 } else { (2.0 * reach_m / CELL_M).ceil() as u32 + 1 };
         let half_m = 0.5 * f64::from(side) * CELL_M;
         let info = GridInfo::new(side, side, CELL_M, Pose::new(robot.x - half_m, robot.y - half_m, 0.0))?;
         let mut found: Vec<(usize, Point)> = Vec::new();
@@ -44,8 +48,11 @@ impl Surroundings {
         let center = costmap.cell_at(robot.position());
         // The corner of a square is sqrt 2 times as far as its side, however it is turned.
         let cells = costmap.cells(half_m * std::f64::consts::SQRT_2).ceil() as i32;
-        for y in center.y.saturating_sub(cells)..=center.y.saturating_add(cells) {
-            for x in center.x.saturating_sub(cells)..=center.x.saturating_add(cells) {
+        let within = |at: i32, size: usize| {
+            at.saturating_sub(cells).max(0)..at.saturating_add(cells).saturating_add(1).min(size as i32)
+        };
+        for y in within(center.y, costmap.height()) {
+            for x in within(center.x, costmap.width()) {
                 let cell = Cell::new(x, y);
                 if input.costmap.cost(cell) == LETHAL_COST {
                     add(costmap.center(cell));
@@ -107,8 +114,11 @@ impl Surroundings {
     /// The points of the cells in a square around a cell.
     fn points_around(&self, center: Cell, cells: i32) -> impl Iterator<Item = &Point> {
         let (width, height) = (self.info.width() as i32, self.info.height() as i32);
-        let columns = (center.x - cells).clamp(0, width)..(center.x + cells + 1).clamp(0, width);
-        let rows = (center.y - cells).clamp(0, height)..(center.y + cells + 1).clamp(0, height);
+        let within = |at: i32, size: i32| {
+            let end = at.saturating_add(cells).saturating_add(1);
+            at.saturating_sub(cells).clamp(0, size)..end.clamp(0, size)
+        };
+        let (columns, rows) = (within(center.x, width), within(center.y, height));
         rows.flat_map(move |y| {
             let row = y as usize * self.info.width();
             let (from, to) = (row + columns.start as usize, row + columns.end as usize);
@@ -125,6 +135,24 @@ mod tests {
     use crate::grid::Costmap;
     use crate::scan::LaserScan;
     use proptest::prelude::*;
+
+    #[test]
+    fn a_reach_beyond_all_places_is_cut_and_one_that_is_no_number_refused() {
+        let info = GridInfo::new(40, 40, 0.05, Pose::default()).unwrap();
+        let mut costs = vec![0; 1600];
+        costs[0] = 254;
+        let costmap = Costmap::from_costs(info, costs).unwrap();
+        let path = Path::default();
+        let pose_in_map = Pose::new(1.0, 1.0, 0.0);
+        let input =
+            ControlInput { pose_in_map, twist: Twist::ZERO, path: &path, costmap: &costmap, scan: None, dt_s: 0.1 };
+        let vast = Surroundings::new(&input, f64::INFINITY).unwrap();
+        assert!(vast.info.width() as f64 * CELL_M < 2.0 * FARTHEST_M + 1.0);
+        let outline = Outline::new(&Footprint::RadiusM(0.18));
+        let clearance_m = vast.clearance_m(&outline, 0.18, &pose_in_map, f64::MAX);
+        assert!((clearance_m - (0.975 * std::f64::consts::SQRT_2 - 0.18)).abs() < 1e-9, "{clearance_m}");
+        assert!(Surroundings::new(&input, f64::NAN).is_err());
+    }
 
     proptest! {
         #[test]

@@ -24,9 +24,36 @@ fn text(input: &[u8]) -> Result<&str, String> {
 fn preset(input: &[u8]) -> Answer {
     let preset = Preset::from_yaml(text(input)?, "fuzz").map_err(|error| error.to_string())?;
     let robot = builtin_robot("turtlebot2").unwrap();
-    let _ = preset.navigator(&robot.body());
+    let driven = drive(preset.clone(), &robot)?;
     let mut explorer = Explorer::new(preset.explorer, &robot.traits()).map_err(|error| error.to_string())?;
-    Ok(a_while(&mut explorer, room(), Pose::new(1.0, 1.0, 0.3), None))
+    Ok(driven + &a_while(&mut explorer, room(), Pose::new(1.0, 1.0, 0.3), None))
+}
+
+/// So many looks at the simulated robot.
+const TICKS: usize = 25;
+
+/// A drive of the simulated robot through a room, with the planner and the controller of a preset.
+fn drive(preset: Preset, robot: &RobotConfig) -> Answer {
+    let navigator = preset.navigator(&robot.body());
+    let mut explorer = Explorer::new(preset.explorer, &robot.traits()).map_err(|error| error.to_string())?;
+    let world = Arc::new(World::new(&room(), &Thresholds::default()).unwrap());
+    let start = Pose::new(1.0, 1.0, 0.3);
+    let mut sim = match SimRobot::new(world, robot, SimConfig::default(), navigator, start) {
+        Ok(sim) => sim,
+        Err(error) => return Ok(error.to_string()),
+    };
+    for _ in 0..TICKS {
+        let observation = match sim.observe() {
+            Ok(observation) => observation,
+            Err(error) => return Ok(error.to_string()),
+        };
+        let decision = explorer.step(&observation);
+        sim.command(&decision.command).map_err(|error| error.to_string())?;
+        if let Some(end) = decision.end {
+            return Ok(format!("{:?}", end.reason));
+        }
+    }
+    Ok(format!("{} goals, {}", explorer.counts().goals_sent, explorer.counts().turns))
 }
 
 /// The built-in presets.
@@ -59,16 +86,11 @@ fn robots() {
 /// A robot that explores, and that the simulator drives.
 fn robot(input: &[u8]) -> Answer {
     let robot = RobotConfig::from_yaml(text(input)?).map_err(|error| error.to_string())?;
-    let preset = Preset::built_in("tour").unwrap();
-    let navigator = preset.navigator(&robot.body());
+    // One with a sampling controller and another one that follows its path.
+    let preset = Preset::built_in(if input.len().is_multiple_of(2) { "liang" } else { "tour" }).unwrap();
+    let driven = drive(preset.clone(), &robot)?;
     let mut explorer = Explorer::new(preset.explorer, &robot.traits()).map_err(|error| error.to_string())?;
-    let world = Arc::new(World::new(&room(), &Thresholds::default()).unwrap());
-    let start = Pose::new(1.0, 1.0, 0.3);
-    let said = match SimRobot::new(world, &robot, SimConfig::default(), navigator, start) {
-        Ok(mut sim) => (0..3).map(|_| if sim.observe().is_ok() { 'o' } else { 'e' }).collect(),
-        Err(error) => error.to_string(),
-    };
-    Ok(said + &a_while(&mut explorer, room(), start, None))
+    Ok(driven + &a_while(&mut explorer, room(), Pose::new(1.0, 1.0, 0.3), None))
 }
 
 #[test]
