@@ -17,6 +17,7 @@ use crate::ros::msg::visualization_msgs::MarkerArray;
 use crate::ros::region::{AreaDrawing, Clicked};
 use crate::ros::transforms::Transforms;
 use crate::ros::{Feed, Node, Publisher};
+use asked::wait_with;
 pub use asked::{Asked, Wish};
 use nalgebra::Point3;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -170,7 +171,7 @@ impl Shared {
             }
             drawn.last_click = Some(asked.clone());
         }
-        drawn.waiting.push((asked, None));
+        wait_with(&mut drawn.waiting, asked);
         drop(drawn);
         self.try_again();
         self.bell.ring();

@@ -4,6 +4,10 @@ use crate::geometry::Point;
 use crate::ros::transforms::Transforms;
 use crate::tf::frame_name;
 use nalgebra::Point3;
+use std::time::Instant;
+
+/// So many messages wait for a map or a frame: of more, the oldest are forgotten.
+const MOST_WAITING: usize = 50;
 
 /// What a message asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,5 +71,29 @@ impl Asked {
             format!("{name} cannot be brought from the frame {frame} to the map's frame {map}: {error}")
         })?;
         Ok(self.points.iter().map(|point| flat(placed * point)).collect())
+    }
+}
+
+/// Has one more wait, and no more than [`MOST_WAITING`] in all.
+pub fn wait_with(waiting: &mut Vec<(Asked, Option<Instant>)>, asked: Asked) {
+    if waiting.len() >= MOST_WAITING {
+        waiting.remove(0);
+    }
+    waiting.push((asked, None));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_too_many_that_wait_the_oldest_are_forgotten() {
+        let mut waiting = Vec::new();
+        for stamp_s in 0..200 {
+            let (wish, frame) = (Wish::SetRegion, "nowhere".to_owned());
+            wait_with(&mut waiting, Asked { wish, frame, stamp_s: f64::from(stamp_s), points: Vec::new() });
+        }
+        let kept = waiting.iter().map(|(asked, _)| asked.stamp_s);
+        assert!(kept.eq((150..200).map(f64::from)), "{}", waiting.len());
     }
 }
