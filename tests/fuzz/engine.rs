@@ -25,7 +25,7 @@ pub struct Target {
     pub name: &'static str,
     /// Takes an input.
     pub run: fn(&[u8]) -> Answer,
-    /// The valid inputs that are made by code: their names and bytes.
+    /// The valid inputs that are made by code, as names and bytes; others lie in the corpus.
     pub seeds: fn() -> Vec<(String, Vec<u8>)>,
     /// The most memory that an input may take at a time: bytes, and bytes for each of its own.
     pub memory: (u64, u64),
@@ -46,27 +46,18 @@ fn setting(name: &str) -> Option<f64> {
 impl Target {
     /// Tries the corpus, and then changes of it.
     pub fn fuzz(&self) {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(self.name);
-        if setting("FRONTIER_WRITE_CORPUS").is_some() {
-            std::fs::create_dir_all(&folder).unwrap();
-            for (name, bytes) in (self.seeds)() {
-                std::fs::write(folder.join(name), bytes).unwrap();
-            }
-        }
-        let mut paths: Vec<PathBuf> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
-        paths.sort();
-        let corpus: Vec<Vec<u8>> = paths.iter().map(|path| std::fs::read(path).unwrap()).collect();
+        let corpus = self.corpus();
         let watch = Watch::begin(self.name);
         let mut kinds = HashSet::new();
-        for (path, input) in paths.iter().zip(&corpus) {
+        for (name, input) in &corpus {
             let answer = self.try_one(input, &watch);
             // What was found once may be refused, and whatever else is there is valid.
-            let was_found = path.file_name().unwrap().to_string_lossy().starts_with("found");
-            assert!(was_found || answer.is_ok(), "{}: {answer:?}", path.display());
+            assert!(name.starts_with("found") || answer.is_ok(), "{} {name}: {answer:?}", self.name);
             kinds.insert(kind(&answer));
         }
         let seconds = setting("FRONTIER_FUZZ_S").unwrap_or(DEFAULT_S);
-        let mut mutator = Mutator::new(setting("FRONTIER_FUZZ_SEED").map_or(1, |seed| seed as u64), &corpus);
+        let inputs: Vec<Vec<u8>> = corpus.into_iter().map(|(_, input)| input).collect();
+        let mut mutator = Mutator::new(setting("FRONTIER_FUZZ_SEED").map_or(1, |seed| seed as u64), &inputs);
         let (began, mut tried, mut taken) = (Instant::now(), 0_u64, 0_u64);
         while began.elapsed().as_secs_f64() < seconds {
             let input = mutator.next_input();
@@ -85,6 +76,20 @@ impl Target {
             kinds.len()
         );
         assert!(tried < 50 || percent >= self.least_taken_percent, "{}: only {percent} % are taken", self.name);
+    }
+
+    /// The valid inputs that are made by code, and those of the target's folder, by name.
+    fn corpus(&self) -> Vec<(String, Vec<u8>)> {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(self.name);
+        let paths = std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+        let kept = paths.map(|path| {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            (name, std::fs::read(path).unwrap())
+        });
+        let mut corpus: Vec<(String, Vec<u8>)> = (self.seeds)().into_iter().chain(kept).collect();
+        assert!(!corpus.is_empty(), "{} has no input to begin with", self.name);
+        corpus.sort();
+        corpus
     }
 
     /// Runs one input, which lies in a file while that lasts.
