@@ -33,36 +33,41 @@ fn end_of(status: &Heard<ExplorationStatus>, explore: &Process) -> ExplorationSt
     end
 }
 
-fn comes_late(world: &World) {
+/// move_base is gone from `gone_when` on until the explorer says that it waits for it, and comes back: no
+/// goal is lost.
+fn expect_no_goal_lost(
+    world: &World,
+    sim_args: &[&str],
+    explore_args: &[&str],
+    gone_when: impl Fn(&ExplorationStatus) -> bool,
+) {
     let status = statuses(world);
     let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
     faults.set_latching(true);
-    let mut sim = world.simulate_kindly(&["_fault:=dead_move_base"]);
-    let mut explore = world.explore(&["_explorer:={turns: {at_start: false}}"]);
-    explore.expect_log("move_base/status", SOON);
+    let tell = |fault: &str| faults.send(StringMessage { data: fault.to_owned() }).unwrap();
+    let mut sim = world.simulate_kindly(sim_args);
+    let mut explore = world.explore(explore_args);
+    status.expect(DEADLINE, "the moment it goes", gone_when);
+    tell("dead_move_base");
     status.expect(SOON, "waiting for it", |m| m.phase == ExplorationStatus::WAITING_FOR_NAVIGATION);
-    faults.send(StringMessage { data: "none".to_owned() }).unwrap();
+    explore.expect_log("move_base/status", SOON);
+    tell("none");
     explore.expect_code(0, DEADLINE);
     let end = end_of(&status, &explore);
     assert_eq!((end.end_reason.as_str(), end.goals_failed), ("complete", 0), "{end:?}");
     world.expect_explored(&mut sim, EXACT);
 }
 
+fn comes_late(world: &World) {
+    let explore_args = ["_explorer:={turns: {at_start: false}}"];
+    expect_no_goal_lost(world, &["_fault:=dead_move_base"], &explore_args, |m| m.goals_sent == 0);
+}
+
 fn dies_and_returns(world: &World) {
-    let status = statuses(world);
-    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
-    faults.set_latching(true);
-    let mut sim = world.simulate_kindly(&["_speed:=4"]);
     // At this speed a robot stands for long before a server counts as gone.
-    let mut explore = world.explore(&["_explorer:={patience: {stall_s: 30.0}}"]);
-    status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING && m.goals_sent > 0);
-    faults.send(StringMessage { data: "dead_move_base".to_owned() }).unwrap();
-    status.expect(SOON, "waiting for it", |m| m.phase == ExplorationStatus::WAITING_FOR_NAVIGATION);
-    faults.send(StringMessage { data: "none".to_owned() }).unwrap();
-    explore.expect_code(0, DEADLINE);
-    let end = end_of(&status, &explore);
-    assert_eq!((end.end_reason.as_str(), end.goals_failed), ("complete", 0), "{end:?}");
-    world.expect_explored(&mut sim, EXACT);
+    let explore_args = ["_explorer:={patience: {stall_s: 30.0}}"];
+    let is_on_its_way = |m: &ExplorationStatus| m.phase == ExplorationStatus::DRIVING && m.goals_sent > 0;
+    expect_no_goal_lost(world, &["_speed:=4"], &explore_args, is_on_its_way);
 }
 
 fn rejects_all(world: &World) {

@@ -3,8 +3,8 @@
 
 use crate::fake_publisher::FakePublisher;
 use crate::peers::MASTER;
-use crate::rig::{DEADLINE, Heard, Process, eventually};
-use crate::{CHILD, EXACT, SOON, Test, World};
+use crate::rig::{CHILD, DEADLINE, Heard, Process, eventually};
+use crate::{EXACT, SOON, Test, World};
 use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
 use frontier_explorer::ros::msg::visualization_msgs::MarkerArray;
 use rosrust::Message;

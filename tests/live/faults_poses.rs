@@ -1,8 +1,9 @@
 //! Transforms that are no numbers or nowhere, loops that close, clocks that jump ahead, names that
 //! a terminal would obey.
 
+use crate::motion::{expect_moving, expect_standing};
 use crate::relay::{Relay, Relays};
-use crate::rig::{DEADLINE, Heard, Process, eventually};
+use crate::rig::{DEADLINE, Heard, Process};
 use crate::{EXACT, KIND, SOON, Test, World};
 use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
 use frontier_explorer::ros::msg::geometry_msgs::TransformStamped;
@@ -34,6 +35,9 @@ const BAD: [BadTransform; 6] = [
     ("is its own parent", |t| t.child_frame_id = t.header.frame_id.clone()),
 ];
 
+/// So long after what it knows of its place is gone the robot stands.
+const HOLDS_AFTER: Duration = Duration::from_millis(1500);
+
 /// A robot that drives itself through the house, by the transforms that the test lets pass.
 fn drives_itself(world: &World) -> (Relays, Process, Process) {
     let relays = Relays::new(&world.probe);
@@ -41,23 +45,6 @@ fn drives_itself(world: &World) -> (Relays, Process, Process) {
     let sim = world.simulate(&args);
     let explore = world.explore(&["_navigation:={drive: internal}", "_explorer:={turns: {at_start: false}}"]);
     (relays, sim, explore)
-}
-
-fn moves(odometry: &Heard<Odometry>) -> bool {
-    odometry.last().is_some_and(|m| m.twist.twist.linear.x.abs() > 0.1 || m.twist.twist.angular.z.abs() > 0.2)
-}
-
-fn expect_moving(odometry: &Heard<Odometry>, explore: &Process) {
-    eventually(SOON, || moves(odometry), || format!("it does not move:\n{}", explore.log()));
-}
-
-/// Standing after a second and a half, for another second.
-fn expect_standing(odometry: &Heard<Odometry>, explore: &Process) {
-    std::thread::sleep(Duration::from_millis(1500));
-    for _ in 0..50 {
-        assert!(!moves(odometry), "it moves:\n{}", explore.log());
-        std::thread::sleep(Duration::from_millis(20));
-    }
 }
 
 /// Every third message is spoilt, in one way after another.
@@ -90,7 +77,7 @@ fn no_numbers(world: &World) {
         message.transforms.iter_mut().for_each(BAD[0].1);
         Some(message)
     });
-    expect_standing(&odometry, &explore);
+    expect_standing(&odometry, HOLDS_AFTER, &explore, "bad transforms");
     status.expect(SOON, "waiting for the pose", |m| m.phase == ExplorationStatus::WAITING_FOR_POSE);
     relays.tf.pass();
     explore.expect_log("the robot's place is known again", SOON);
@@ -110,7 +97,7 @@ fn nowhere(world: &World) {
             }
             Some(message)
         });
-        expect_standing(&odometry, &explore);
+        expect_standing(&odometry, HOLDS_AFTER, &explore, "bad transforms");
         relays.tf.pass();
     }
     explore.expect_log("the map jumped under the robot by", SOON);

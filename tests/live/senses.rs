@@ -1,6 +1,7 @@
 //! Clocks, transforms and scans that go wrong. Stamps are moved by tenths of a second here:
 //! the simulator is the kind one, whose own are exact.
 
+use crate::motion::{expect_moving, expect_standing};
 use crate::relay::{Relays, later};
 use crate::rig::{DEADLINE, Heard, Process, eventually};
 use crate::{KIND, SOON, Test, World};
@@ -31,25 +32,6 @@ fn drives_itself(world: &World) -> (Relays, Process, Process) {
     let sim = world.simulate(&args);
     let explore = world.explore(&["_navigation:={drive: internal}", "_explorer:={turns: {at_start: false}}"]);
     (relays, sim, explore)
-}
-
-/// Whether the newest odometry drives or turns.
-fn moves(odometry: &Heard<Odometry>) -> bool {
-    odometry.last().is_some_and(|m| m.twist.twist.linear.x.abs() > 0.1 || m.twist.twist.angular.z.abs() > 0.2)
-}
-
-fn expect_moving(odometry: &Heard<Odometry>, explore: &Process) {
-    eventually(Duration::from_secs(60), || moves(odometry), || format!("it does not move:\n{}", explore.log()));
-}
-
-/// Standing after some time, and for one second from then on.
-fn expect_standing(odometry: &Heard<Odometry>, within: Duration, explore: &Process, what: &str) {
-    std::thread::sleep(within);
-    let began = Instant::now();
-    while began.elapsed() < Duration::from_secs(1) {
-        assert!(!moves(odometry), "{what}: it moves:\n{}", explore.log());
-        std::thread::sleep(Duration::from_millis(20));
-    }
 }
 
 fn is_zero(twist: &Twist) -> bool {
