@@ -2,13 +2,14 @@
 //! speaks against going there.
 
 use super::blacklist::{Blacklist, Taboo};
+use super::opening::is_too_narrow;
 use super::record::{CandidateRecord, CandidateStatus};
 use super::settings::ExplorerSettings;
 use super::sight::Sights;
 use super::standing::{StandingGoal, StandingSearch};
 use crate::frontier::Frontier;
 use crate::geometry::{Point, Pose};
-use crate::grid::{AreaCells, Cell, GridInfo, INSCRIBED_COST, LETHAL_COST, OccupancyGrid};
+use crate::grid::{AreaCells, GridInfo, OccupancyGrid};
 use crate::planning::{Fenced, PathField};
 use crate::selection::{Candidate, GoalSelector, Needs, SelectionContext};
 use std::sync::Arc;
@@ -106,7 +107,7 @@ impl Assessor<'_> {
         if self.areas.as_ref().is_some_and(|areas| !frontier.cells.iter().any(|&cell| areas.is_inside(cell))) {
             return left(CandidateStatus::OutsideRegion, None);
         }
-        if self.field.is_some_and(|field| is_too_narrow(frontier, info, field)) {
+        if self.field.is_some_and(|field| is_too_narrow(frontier, info, field.costmap())) {
             return left(CandidateStatus::TooNarrow, None);
         }
         let seen = |until_s| {
@@ -208,17 +209,6 @@ impl Assessor<'_> {
         let cells = self.field?.cost_cells(info.cell_at(goal.position()))?;
         Some(cells * info.resolution_m())
     }
-}
-
-/// Whether the robot's centre can be in no cell of a frontier for the obstacles beside
-/// it: the crack between two dots of a wall, the gap between two legs.
-fn is_too_narrow(frontier: &Frontier, info: &GridInfo, field: &PathField) -> bool {
-    let costmap = field.costmap();
-    let is_tight = |&cell: &Cell| {
-        let cost = if costmap.info() == info { costmap.cost(cell) } else { costmap.cost_at(info.center(cell)) };
-        matches!(cost, INSCRIBED_COST | LETHAL_COST)
-    };
-    frontier.cells.iter().all(is_tight)
 }
 
 fn is_near(frontier: &Frontier, info: &GridInfo, target: Point) -> bool {

@@ -9,6 +9,7 @@ mod explorer;
 mod ledger;
 mod lookout;
 mod map_watch;
+mod opening;
 mod progress_monitor;
 mod record;
 mod run;

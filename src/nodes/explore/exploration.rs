@@ -91,6 +91,9 @@ impl Exploration<'_> {
         watcher.begin(explorer);
         let end = explore(robot, explorer, &mut Attended { operator, watcher, keeper, recall, live });
         robot.stop();
+        // Whoever waits for the end is told before the disk is waited for.
+        let status = watcher.finish(robot, explorer, &end);
+        node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
         let activity = match end.reason {
             // A signal ends the process, and not what it was about.
             EndReason::Interrupted if node.is_ok() => Activity::Stopped,
@@ -98,8 +101,6 @@ impl Exploration<'_> {
             _ => Activity::Ended,
         };
         keeper.keep_now(watcher.session(explorer, activity));
-        let status = watcher.finish(robot, explorer, &end);
-        node.log().info(format_args!("{}: {} ({})", end.reason.name(), end.message, status_sentence(&status)));
         tell_latency(node, robot.latencies_ms());
         end
     }
