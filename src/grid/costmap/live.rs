@@ -41,7 +41,7 @@ impl LiveCostmap {
             }
             (Since::Grown(growth, changed), Some(reach)) => {
                 let write = |costmap: &mut Costmap, part: &CellRect| {
-                    costmap.reinflate(grid, *part, reach, thresholds, inflation)
+                    costmap.reinflate(grid, *part, reach, thresholds, inflation);
                 };
                 live.grow(&growth, changed.grown(reach, info), reach, write);
             }
