@@ -76,6 +76,24 @@ impl BitPlane {
         (self.width, self.height, self.row_words) = (width, height, row_words);
     }
 
+    /// The same bits so many columns and rows further on, in a plane of a size that holds them all;
+    /// others are clear.
+    #[must_use]
+    pub fn moved(&self, (width, height): (usize, usize), (columns, rows): (usize, usize)) -> Self {
+        let mut plane = Self::new(width, height);
+        let (words, bits) = (columns / WORD_CELLS, columns % WORD_CELLS);
+        for y in 0..self.height {
+            let row = &mut plane.row_mut(y + rows)[words..];
+            for (at, &word) in self.row(y).iter().enumerate() {
+                row[at] |= word << bits;
+                if let Some(next) = row.get_mut(at + 1).filter(|_| bits > 0) {
+                    *next |= word >> (WORD_CELLS - bits);
+                }
+            }
+        }
+        plane
+    }
+
     /// Clears all bits.
     pub fn clear(&mut self) {
         self.words.fill(0);

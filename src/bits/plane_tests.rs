@@ -48,3 +48,17 @@ fn outside_nothing_is_set() {
     assert_eq!((plane.row_words(), plane.last_word_mask()), (2, 1));
     assert_eq!(BitPlane::new(128, 1).last_word_mask(), u64::MAX);
 }
+
+#[test]
+fn bits_that_move_stay_beside_each_other() {
+    let mut plane = BitPlane::new(130, 3);
+    let cells = || (0..390).filter(|i| i % 7 < 3 || i % 5 == 1).map(|i| Cell::new(i % 130, i / 130));
+    cells().for_each(|cell| plane.insert(cell));
+    for (columns, rows, behind) in [(0, 0, 0), (1, 0, 0), (62, 1, 0), (63, 0, 2), (64, 2, 1), (65, 0, 70), (200, 3, 0)]
+    {
+        let moved = plane.moved((columns + 130 + behind, rows + 4), (columns, rows));
+        let offset = (columns as i32, rows as i32);
+        assert_eq!((moved.width(), moved.height()), (columns + 130 + behind, rows + 4));
+        assert!(moved.count() == plane.count() && cells().all(|cell| moved.contains(cell.offset(offset))), "{columns}");
+    }
+}

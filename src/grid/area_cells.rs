@@ -1,6 +1,6 @@
 //! Which cells of a grid lie in areas drawn in metres.
 
-use super::{Cell, CellRect, Census, Changes, GridInfo, OccupancyGrid, Thresholds, squared_distance_cells};
+use super::{Cell, CellRect, Census, Changes, GridInfo, Growth, OccupancyGrid, Thresholds, squared_distance_cells};
 use crate::geometry::{Areas, Polygon, spans_at};
 use std::ops::Range;
 use std::sync::Arc;
@@ -60,6 +60,13 @@ impl AreaCells {
     #[must_use]
     pub fn is_near_no_go(&self, cell: Cell) -> bool {
         self.flags_of(cell).is_some_and(|flags| flags & (NO_GO | NEAR_NO_GO) != 0)
+    }
+
+    /// The smallest rectangle that holds all cells that lay in other areas before a grid grew: a centre on
+    /// a border may come to lie beside it.
+    pub(crate) fn changed_since(&self, last: &Self, growth: &Growth) -> CellRect {
+        let all = CellRect::of(growth.new_info());
+        growth.changed([&last.flags, &self.flags], &all).unwrap_or_default()
     }
 
     fn flags_of(&self, cell: Cell) -> Option<u8> {
@@ -124,8 +131,7 @@ impl AreaCensus {
             None => grid.census_of(part, &self.thresholds),
         };
         let from_last = self.last.as_ref().and_then(|(last, version, census)| {
-            let changed = changes.since(*version).filter(|_| *last.info() == info)?;
-            Some(census.with_part(count(last, &changed), count(grid, &changed)))
+            census.since(&changes.since_on((*version, last.info()), &info), [last, grid], count)
         });
         let census = from_last.unwrap_or_else(|| count(grid, &CellRect::of(&info)));
         self.last = Some((Arc::clone(grid), changes.version(), census));

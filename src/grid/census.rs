@@ -1,6 +1,6 @@
 //! How many cells of a map are free, occupied and unknown, counted for the price of what changed.
 
-use super::{CellRect, CellState, Changes, OccupancyGrid, Thresholds};
+use super::{CellRect, CellState, Changes, OccupancyGrid, Since, Thresholds};
 use std::sync::Arc;
 
 /// Numbers of cells by kind of territory.
@@ -23,8 +23,29 @@ impl Census {
         self.free + self.occupied + self.unsettled
     }
 
+    /// The counts of a map by those of the last one, in which only what differs is counted; `None`
+    /// where all may differ.
+    pub(super) fn since(
+        self,
+        since: &Since,
+        [last, next]: [&OccupancyGrid; 2],
+        count: impl Fn(&OccupancyGrid, &CellRect) -> Self,
+    ) -> Option<Self> {
+        match since {
+            Since::Part(changed) => Some(self.with_part(count(last, changed), count(next, changed))),
+            Since::Grown(growth, changed) => {
+                let before = growth.before(*changed);
+                let after = before.moved(growth.offset(), next.info());
+                let kept = self.with_part(count(last, &before), count(next, &after));
+                let new = growth.outside(0).into_iter();
+                Some(new.fold(kept, |census, part| census.with_part(Self::default(), count(next, &part))))
+            }
+            Since::All => None,
+        }
+    }
+
     /// The counts without those of a part and with others in their place.
-    pub(super) const fn with_part(self, without: Self, with: Self) -> Self {
+    const fn with_part(self, without: Self, with: Self) -> Self {
         Self {
             free: self.free + with.free - without.free,
             occupied: self.occupied + with.occupied - without.occupied,
@@ -85,9 +106,9 @@ impl LiveCensus {
     /// is known.
     pub fn update(&mut self, grid: &Arc<OccupancyGrid>, changes: &Changes) -> Census {
         let from_last = self.last.as_ref().and_then(|(last, version, census)| {
-            let changed = changes.since(*version).filter(|_| last.info() == grid.info())?;
-            let part = |grid: &OccupancyGrid| grid.census_of(&changed, &self.thresholds);
-            Some(census.with_part(part(last), part(grid)))
+            let since = changes.since_on((*version, last.info()), grid.info());
+            let count = |grid: &OccupancyGrid, part: &CellRect| grid.census_of(part, &self.thresholds);
+            census.since(&since, [last, grid], count)
         });
         let census = from_last.unwrap_or_else(|| grid.census(&self.thresholds));
         self.last = Some((Arc::clone(grid), changes.version(), census));

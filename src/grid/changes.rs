@@ -1,7 +1,7 @@
 //! Which cells of a map changed from version to version, for whoever keeps something that was
 //! made of an earlier one.
 
-use super::CellRect;
+use super::{CellRect, GridInfo, Growth, Since};
 use std::sync::Arc;
 
 /// So many versions are remembered: a consumer that looks more rarely looks at all cells.
@@ -47,10 +47,15 @@ impl Changes {
         Self::beginning_at(self.version + 1)
     }
 
-    /// The next version, of which a rectangle differs where that is known, and else all may.
+    /// The next version of something that lies cell by cell where a map does, which may differ where
+    /// that one does.
     #[must_use]
-    pub fn then_known(&self, changed: Option<CellRect>) -> Self {
-        changed.map_or_else(|| self.then_all(), |changed| self.then(changed))
+    pub fn then_since(&self, since: &Since) -> Self {
+        match since {
+            Since::Part(changed) => self.then(*changed),
+            Since::Grown(growth, changed) => self.then_grown(growth.corner(), *changed),
+            Since::All => self.then_all(),
+        }
     }
 
     /// The newest version.
@@ -77,6 +82,17 @@ impl Changes {
         let missed = usize::try_from(self.version.checked_sub(version)?).ok()?;
         let first = self.recent.len().checked_sub(missed)?;
         Some(self.recent[first..].iter().copied().fold(CellRect::default(), CellRect::union))
+    }
+
+    /// Where the newest version, of which size and place are given, may differ from one that is
+    /// known with its own.
+    #[must_use]
+    pub fn since_on(&self, (version, old): (u64, &GridInfo), new: &GridInfo) -> Since {
+        match self.since_grown(version) {
+            Some(changed) if old == new => Since::Part(changed),
+            Some(changed) => Growth::of(old, new).map_or(Since::All, |growth| Since::Grown(growth, changed)),
+            None => Since::All,
+        }
     }
 }
 

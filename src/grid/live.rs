@@ -5,69 +5,11 @@
 //! So earlier states are kept until their readers have let go, brought up to date by copying the
 //! rectangles that changed since, and become the next newest state.
 
-use super::{CellRect, Changes, Costmap, GridInfo, OccupancyGrid};
+use super::{CellRect, CellValues, Changes, GridInfo, Growth, Since, changed_rect};
 use std::sync::Arc;
 
 /// So many earlier states are kept for their memory.
 const SPARES: usize = 2;
-
-/// One value a cell, row by row.
-pub trait CellValues: Clone {
-    /// Of what kind the values are.
-    type Value: Copy + PartialEq;
-
-    /// Size and place.
-    fn info(&self) -> &GridInfo;
-
-    /// All values, row-major.
-    fn values(&self) -> &[Self::Value];
-
-    /// All values for writing, row-major.
-    fn values_mut(&mut self) -> &mut [Self::Value];
-
-    /// Takes over the values of a rectangle of another state of the same size.
-    fn copy_rect(&mut self, from: &Self, rect: &CellRect) {
-        let info = *from.info();
-        let (rows, columns) = (rect.rows(&info), rect.columns(&info));
-        let width = info.width();
-        let lines = self.values_mut().chunks_exact_mut(width).zip(from.values().chunks_exact(width));
-        for (to, from) in lines.skip(rows.start).take(rows.len()) {
-            to[columns.clone()].copy_from_slice(&from[columns.clone()]);
-        }
-    }
-}
-
-impl CellValues for OccupancyGrid {
-    type Value = i8;
-
-    fn info(&self) -> &GridInfo {
-        self.info()
-    }
-
-    fn values(&self) -> &[i8] {
-        self.data()
-    }
-
-    fn values_mut(&mut self) -> &mut [i8] {
-        self.data_mut()
-    }
-}
-
-impl CellValues for Costmap {
-    type Value = u8;
-
-    fn info(&self) -> &GridInfo {
-        self.info()
-    }
-
-    fn values(&self) -> &[u8] {
-        self.costs()
-    }
-
-    fn values_mut(&mut self) -> &mut [u8] {
-        self.costs_mut()
-    }
-}
 
 /// One state, with what changed before it.
 #[derive(Clone, Debug)]
@@ -134,9 +76,10 @@ impl<T: CellValues> Live<T> {
             self.changes = self.changes.then(changed);
             let last = std::mem::replace(&mut self.newest, next);
             self.retire(self.version() - 1, last);
-        } else if let Some(corner) = next.info().corner_of(self.newest.info()) {
-            let changed = changed_from(&*self.newest, &*next, corner).unwrap_or_default();
-            self.changes = self.changes.then_grown(corner, changed);
+        } else if let Some(growth) = Growth::of(self.newest.info(), next.info()) {
+            let all = CellRect::of(next.info());
+            let changed = growth.changed([self.newest.values(), next.values()], &all).unwrap_or_default();
+            self.changes = self.changes.then_grown(growth.corner(), changed);
             self.newest = next;
             self.spares.clear();
         } else {
@@ -177,6 +120,43 @@ impl<T: CellValues> Live<T> {
         self.retire(self.version() - 1, last);
     }
 
+    /// The next state, on a grid that grew: what was there lies where it did. Writes anew the cells that
+    /// changed, those that are new, and those fewer than `rim` columns or rows from such. O(cells), and
+    /// but for these they are copied.
+    pub fn grow(&mut self, growth: &Growth, changed: CellRect, rim: usize, mut write: impl FnMut(&mut T, &CellRect)) {
+        let values = growth.lay(self.newest.values(), T::UNKNOWN);
+        let mut next = T::of_values(*growth.new_info(), values);
+        let outside = growth.outside(rim);
+        outside.iter().chain([&changed]).filter(|part| !part.is_empty()).for_each(|part| write(&mut next, part));
+        let differs = |part: &CellRect| growth.changed([self.newest.values(), next.values()], part);
+        let changed = outside.iter().filter_map(differs).fold(changed, CellRect::union);
+        self.changes = self.changes.then_grown(growth.corner(), changed);
+        self.newest = Arc::new(next);
+        self.spares.clear();
+    }
+
+    /// What is made cell by cell of a state with these cells follows it: `write` makes the cells of a
+    /// rectangle, and `all` makes all where nothing is kept that would serve.
+    pub fn follow(
+        slot: &mut Option<Self>,
+        since: &Since,
+        info: &GridInfo,
+        mut write: impl FnMut(&mut T, &CellRect),
+        all: impl FnOnce() -> T,
+    ) {
+        match (slot, since) {
+            (Some(live), Since::Part(changed)) if live.newest.info() == info => {
+                if !changed.is_empty() {
+                    live.change(*changed, |cells| write(cells, changed));
+                }
+            }
+            (Some(live), Since::Grown(growth, changed)) if live.newest.info() == growth.old() => {
+                live.grow(growth, *changed, 0, write);
+            }
+            (slot, _) => *slot = Some(Self::new(Arc::new(all()))),
+        }
+    }
+
     /// An earlier state that nobody reads any longer, brought up to date.
     fn spare(&mut self) -> Option<Arc<T>> {
         let free = self.spares.iter_mut().rposition(|(_, state)| Arc::get_mut(state).is_some())?;
@@ -194,31 +174,11 @@ impl<T: CellValues> Live<T> {
     }
 }
 
-/// The smallest rectangle that holds all cells in which two states of one size differ; `None`
-/// where they are equal.
-pub fn changed_rect<T: CellValues>(old: &T, new: &T) -> Option<CellRect> {
-    changed_from(old, new, (0, 0))
-}
-
-/// The same of a new state that holds all of the old one, whose first cell has this column and row.
-fn changed_from<T: CellValues>(old: &T, new: &T, (column, row): (usize, usize)) -> Option<CellRect> {
-    let (width, old_width) = (new.info().width(), old.info().width());
-    let rows = new.values().chunks_exact(width).enumerate().skip(row).zip(old.values().chunks_exact(old_width));
-    let differs = |(a, b): (&T::Value, &T::Value)| a != b;
-    let rows = rows.map(|((y, new), old)| (y, &new[column..column + old_width], old));
-    let changed = rows.filter(|(_, new, old)| new != old).filter_map(|(y, new, old)| {
-        let cells = || new.iter().zip(old);
-        let (first, last) = (cells().position(differs)?, cells().rposition(differs)?);
-        Some(CellRect { x: column + first, y, width: last + 1 - first, height: 1 })
-    });
-    changed.reduce(CellRect::union)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::Pose;
-    use crate::grid::Cell;
+    use crate::grid::{Cell, OccupancyGrid};
     use proptest::prelude::*;
 
     fn grid() -> OccupancyGrid {

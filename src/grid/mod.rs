@@ -6,11 +6,15 @@
 
 mod area_cells;
 mod cell;
+mod cell_values;
 mod census;
 mod changes;
 mod costmap;
 mod distance;
 mod flood;
+#[cfg(test)]
+pub(crate) mod growing_tests;
+mod growth;
 mod info;
 mod live;
 mod memory;
@@ -24,6 +28,8 @@ mod vertical;
 
 pub use area_cells::{AreaCells, AreaCensus};
 pub use cell::Cell;
+pub use cell_values::CellValues;
+pub(crate) use cell_values::changed_rect;
 pub use census::Census;
 pub(crate) use census::LiveCensus;
 pub use changes::Changes;
@@ -33,9 +39,9 @@ pub use costmap::{
 };
 pub(crate) use costmap::{LiveCostmap, Roomy};
 pub use distance::squared_distance_cells;
+pub use growth::{Growth, Since};
 pub use info::{GridInfo, GridInfoError, MAX_CELLS, NEIGHBOURS_4, NEIGHBOURS_8, Neighbourhood};
-pub(crate) use live::changed_rect;
-pub use live::{CellValues, Live, Snapshot};
+pub use live::{Live, Snapshot};
 pub use memory::MapMemory;
 pub use occupancy::{GridError, OccupancyGrid};
 pub use patch::{GridPatch, GridPatchError};

@@ -44,6 +44,11 @@ impl OccupancyGrid {
         }
     }
 
+    /// A grid of as many values as it has cells.
+    pub(super) const fn of(info: GridInfo, data: Vec<i8>) -> Self {
+        Self { info, data }
+    }
+
     /// A grid with one value everywhere.
     #[must_use]
     pub fn filled(info: GridInfo, value: i8) -> Self {

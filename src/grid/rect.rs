@@ -57,9 +57,12 @@ impl CellRect {
         Self { x: left, y: bottom, width: right - left, height: top - bottom }
     }
 
-    /// With so many cells more on every side, as far as there are any.
+    /// With so many cells more on every side, as far as there are any; one without cells stays so.
     #[must_use]
     pub fn grown(self, cells: usize, info: &GridInfo) -> Self {
+        if self.is_empty() {
+            return self;
+        }
         let (x, y) = (self.x.saturating_sub(cells), self.y.saturating_sub(cells));
         let right = (self.x + self.width + cells).min(info.width());
         let top = (self.y + self.height + cells).min(info.height());

@@ -13,8 +13,8 @@
 use super::endpoints::ESCAPE_RADIUS_M;
 use crate::geometry::{Point, Pose};
 use crate::grid::{
-    Cell, CellRect, CellValues, Changes, Costmap, INSCRIBED_COST, LETHAL_COST, Live, NARROW_COST, Neighbourhood,
-    Snapshot, UNKNOWN_COST, traverse,
+    Cell, CellRect, CellValues, Changes, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, Live, NARROW_COST,
+    Neighbourhood, Since, Snapshot, UNKNOWN_COST, traverse,
 };
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
@@ -90,8 +90,8 @@ impl Driven {
 /// next.
 #[derive(Clone, Debug, Default)]
 pub struct Opened {
-    /// The version of the costs that are known.
-    version: Option<u64>,
+    /// The version of the costs that are known, with their size and place.
+    known: Option<(u64, GridInfo)>,
     opened: HashMap<Cell, u8>,
     made: Option<Live<Costmap>>,
     /// Its versions: a cell that was opened may be closed again where the costs stay the same.
@@ -103,38 +103,28 @@ impl Opened {
     pub fn update(&mut self, driven: &Driven, costs: &Snapshot<Costmap>, robot: &Pose) -> Snapshot<Costmap> {
         let info = costs.cells.info();
         let opened = driven.opened(&costs.cells, robot);
-        let since = self.version.and_then(|version| costs.changes.since(version));
-        self.version = Some(costs.changes.version());
+        let since = self.known.map_or(Since::All, |(version, last)| costs.changes.since_on((version, &last), info));
+        self.known = Some((costs.changes.version(), *info));
         let last = std::mem::replace(&mut self.opened, opened);
-        let changed = since.map(|changed| {
-            let other = |a: &HashMap<Cell, u8>, b: &HashMap<Cell, u8>| {
-                let differ = a.iter().filter(|(cell, cost)| b.get(cell) != Some(cost));
-                differ.filter_map(|(&cell, _)| CellRect::of_cell(cell)).fold(CellRect::default(), CellRect::union)
-            };
-            changed.union(other(&last, &self.opened)).union(other(&self.opened, &last))
-        });
-        if changed.is_none_or(|changed| !changed.is_empty()) {
-            self.changes = self.changes.then_known(changed);
+        let last = last.into_iter().map(|(cell, cost)| (cell.offset(since.offset()), cost)).collect();
+        let other = |a: &HashMap<Cell, u8>, b: &HashMap<Cell, u8>| {
+            let differ = a.iter().filter(|(cell, cost)| b.get(cell) != Some(cost));
+            differ.filter_map(|(&cell, _)| CellRect::of_cell(cell)).fold(CellRect::default(), CellRect::union)
+        };
+        let since = since.and([other(&last, &self.opened), other(&self.opened, &last)]);
+        if !since.is_nothing() {
+            self.changes = self.changes.then_since(&since);
         }
         if self.opened.is_empty() {
             self.made = None;
             return Snapshot { cells: Arc::clone(&costs.cells), changes: self.changes.clone() };
         }
-        match (&mut self.made, changed) {
-            (Some(made), Some(changed)) if made.newest().info() == info => {
-                if !changed.is_empty() {
-                    let opened = &self.opened;
-                    made.change(changed, |cells| {
-                        cells.copy_rect(&costs.cells, &changed);
-                        cells.set_costs(opened);
-                    });
-                }
-            }
-            (made, _) => {
-                let cells = Arc::new(costs.cells.with_costs(&self.opened));
-                *made = Some(Live::new(cells));
-            }
-        }
+        let opened = &self.opened;
+        let write = |cells: &mut Costmap, part: &CellRect| {
+            cells.copy_rect(&costs.cells, part);
+            cells.set_costs(opened);
+        };
+        Live::follow(&mut self.made, &since, info, write, || costs.cells.with_costs(opened));
         let cells = self.made.as_ref().map_or(&costs.cells, Live::newest);
         Snapshot { cells: Arc::clone(cells), changes: self.changes.clone() }
     }

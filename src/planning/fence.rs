@@ -9,7 +9,7 @@ use super::endpoints::ESCAPE_RADIUS_M;
 use crate::geometry::{Areas, Path, Point, Pose};
 use crate::grid::{
     AreaCells, Cell, CellRect, CellValues, Changes, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, Live,
-    Neighbourhood, Snapshot, UNKNOWN_COST,
+    Neighbourhood, Since, Snapshot, UNKNOWN_COST,
 };
 use std::collections::{HashSet, VecDeque};
 use std::sync::Arc;
@@ -79,6 +79,18 @@ impl Fenced {
         self.cells.is_near_no_go(cell) || self.keeps_region && self.cells.is_outside_region(cell)
     }
 
+    /// Where closed costs may differ from those that were closed for another place of the robot, before
+    /// the costs changed.
+    fn since(&self, last: &Self, since: Since) -> Since {
+        let way_in: HashSet<Cell> = last.way_in.iter().map(|cell| cell.offset(since.offset())).collect();
+        let other = way_in.symmetric_difference(&self.way_in).filter_map(|&cell| CellRect::of_cell(cell));
+        let areas = match &since {
+            Since::Grown(growth, _) => self.cells.changed_since(&last.cells, growth),
+            Since::Part(_) | Since::All => CellRect::default(),
+        };
+        since.and(other.chain([areas]))
+    }
+
     /// Closes what is forbidden in a rectangle of a costmap.
     fn close(&self, costmap: &mut Costmap, rect: &CellRect) {
         let (rows, columns) = (rect.rows(&self.info), rect.columns(&self.info));
@@ -143,30 +155,25 @@ impl Fence {
     pub fn update(&mut self, costs: &Snapshot<Costmap>, robot: &Pose) -> Snapshot<Costmap> {
         let last = self.fenced.take();
         let Some(cells) = self.stand(last.as_ref(), &costs.cells, robot) else { return costs.clone() };
-        let since = self.version.and_then(|version| costs.changes.since(version));
+        let since = match (last, self.version) {
+            (Some(last), Some(version)) if last.keeps_region == cells.keeps_region => {
+                cells.since(&last, costs.changes.since_on((version, &last.info), &cells.info))
+            }
+            _ => Since::All,
+        };
         self.version = Some(costs.changes.version());
-        let changed = last.zip(since).and_then(|(last, since)| {
-            let is_same = last.info == cells.info && last.keeps_region == cells.keeps_region;
-            let other = last.way_in.symmetric_difference(&cells.way_in).filter_map(|&cell| CellRect::of_cell(cell));
-            is_same.then(|| other.fold(since, CellRect::union))
-        });
-        match (&mut self.made, changed) {
-            (Some(made), Some(changed)) if made.newest().info() == costs.cells.info() => {
-                if !changed.is_empty() {
-                    made.change(changed, |fenced| {
-                        fenced.copy_rect(&costs.cells, &changed);
-                        cells.close(fenced, &changed);
-                    });
-                    self.changes = self.changes.then(changed);
-                }
-            }
-            (made, _) => {
-                let mut fenced = Costmap::clone(&costs.cells);
-                cells.close(&mut fenced, &CellRect::of(costs.cells.info()));
-                *made = Some(Live::new(Arc::new(fenced)));
-                self.changes = self.changes.then_all();
-            }
+        if !since.is_nothing() {
+            self.changes = self.changes.then_since(&since);
         }
+        let write = |fenced: &mut Costmap, part: &CellRect| {
+            fenced.copy_rect(&costs.cells, part);
+            cells.close(fenced, part);
+        };
+        Live::follow(&mut self.made, &since, &cells.info, write, || {
+            let mut fenced = Costmap::clone(&costs.cells);
+            cells.close(&mut fenced, &CellRect::of(&cells.info));
+            fenced
+        });
         self.fenced = Some(cells);
         let cells = self.made.as_ref().map_or(&costs.cells, Live::newest);
         Snapshot { cells: Arc::clone(cells), changes: self.changes.clone() }

@@ -14,6 +14,8 @@ mod fence;
 mod field;
 mod global_planner;
 mod ground;
+#[cfg(test)]
+mod growing_tests;
 mod hybrid_astar;
 mod hybrid_search;
 mod lattice;

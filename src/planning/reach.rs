@@ -1,13 +1,13 @@
 //! Which cells the robot can get to, without the ways.
 
 use crate::bits::BitPlane;
-use crate::grid::{CellRect, Costmap, INSCRIBED_COST, Snapshot};
+use crate::grid::{CellRect, Costmap, GridInfo, INSCRIBED_COST, Since, Snapshot};
 
 /// The cells that the robot's centre may be in, kept from one version of a costmap to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Passable {
-    /// The version that is known.
-    version: Option<u64>,
+    /// The version that is known, with its size and place.
+    known: Option<(u64, GridInfo)>,
     plane: BitPlane,
 }
 
@@ -16,12 +16,21 @@ impl Passable {
     /// known.
     pub fn update(&mut self, costs: &Snapshot<Costmap>) -> &BitPlane {
         let info = costs.cells.info();
-        let is_known = (self.plane.width(), self.plane.height()) == (info.width(), info.height());
-        let since = self.version.filter(|_| is_known).and_then(|version| costs.changes.since(version));
-        self.plane.resize(info.width(), info.height());
-        let changed = since.unwrap_or_else(|| CellRect::of(info));
-        self.plane.set_values(&changed, costs.cells.costs(), is_passable);
-        self.version = Some(costs.changes.version());
+        let since = self.known.map_or(Since::All, |(version, last)| costs.changes.since_on((version, &last), info));
+        self.known = Some((costs.changes.version(), *info));
+        let size = (info.width(), info.height());
+        let set = |plane: &mut BitPlane, part: &CellRect| plane.set_values(part, costs.cells.costs(), is_passable);
+        match since {
+            Since::Part(changed) => set(&mut self.plane, &changed),
+            Since::Grown(growth, changed) => {
+                self.plane = self.plane.moved(size, growth.corner());
+                growth.outside(0).iter().chain([&changed]).for_each(|part| set(&mut self.plane, part));
+            }
+            Since::All => {
+                self.plane.resize(size.0, size.1);
+                set(&mut self.plane, &CellRect::of(info));
+            }
+        }
         &self.plane
     }
 }

@@ -3,7 +3,9 @@
 use super::clock::RunClock;
 use super::map_feed::{MapFeed, ReceivedMap};
 use super::node::Node;
-use crate::grid::{BelievedCosts, Changes, Inflation, LiveCostmap, Snapshot, Thresholds, unknown_share_hidden_by};
+use crate::grid::{
+    BelievedCosts, Changes, Inflation, LiveCostmap, Since, Snapshot, Thresholds, unknown_share_hidden_by,
+};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
@@ -123,7 +125,11 @@ impl RobotMap {
         };
         let source = (is_believed, costs.changes.version());
         let last = self.source.replace(source).filter(|(was_believed, _)| *was_believed == is_believed);
-        self.costs = self.costs.then_known(last.and_then(|(_, version)| costs.changes.since(version)));
+        let known = self.known.as_ref().and_then(|known| known.snapshot.costmap.as_ref()).zip(last);
+        let since = known.map_or(Since::All, |(known, (_, version))| {
+            costs.changes.since_on((version, known.cells.info()), costs.cells.info())
+        });
+        self.costs = self.costs.then_since(&since);
         let costmap = Some(Snapshot { changes: self.costs.clone(), ..costs });
         let (stamp_s, changes) = (clock.of(received.stamp_s), received.changes.clone());
         let snapshot = MapSnapshot { stamp_s, grid, changes, costmap };

@@ -68,6 +68,12 @@ impl MapWindow {
         }
     }
 
+    /// Cells of this window by the columns and rows of a larger one.
+    pub(super) const fn moved_to(&self, rect: CellRect, larger: &Self) -> CellRect {
+        let (columns, rows) = (self.first.0 - larger.first.0, self.first.1 - larger.first.1);
+        CellRect { x: rect.x + columns as usize, y: rect.y + rows as usize, ..rect }
+    }
+
     /// The window as the place of a grid.
     pub(super) fn info(&self) -> Result<GridInfo, GridInfoError> {
         let corner = self.lattice.from_grid_units(self.first.0 as f64, self.first.1 as f64);

@@ -162,6 +162,7 @@ impl Mapper {
         let grown = self.window.grown_to(low, high, chunk)?;
         if grown != self.window {
             self.cells = self.window.copy_into(&self.cells, &grown, UNSEEN);
+            self.touched = self.window.moved_to(self.touched, &grown);
             self.window = grown;
         }
         self.touched = self.touched.union(self.window.rect(low, high));

@@ -274,9 +274,8 @@ impl Plant {
         }
         if let Some(map) = self.slam.publish(&self.newest, self.now)? {
             sensed.map = true;
-            let changed = self.published.renew(map.stamp_s, map.grid);
             // On known ground nothing changes for long, and counting takes its time.
-            if changed.is_none_or(|changed| !changed.is_empty()) {
+            if self.published.renew(map.stamp_s, map.grid) {
                 self.coverage.update(&map.seen.cells);
             }
         }

@@ -1,6 +1,6 @@
 //! The map that a simulated SLAM published last, with the costmap that is made of it.
 
-use crate::grid::{CellRect, Changes, Costmap, LiveCostmap, OccupancyGrid, Snapshot};
+use crate::grid::{Changes, Costmap, LiveCostmap, OccupancyGrid, Snapshot};
 use crate::robot::MapSnapshot;
 use std::sync::Arc;
 
@@ -27,14 +27,14 @@ impl Published {
         Self { stamp_s: 0.0, map, costmap, mapped, costs }
     }
 
-    /// Takes the next map; where it is another than the last, `None` if that is not known.
-    pub fn renew(&mut self, stamp_s: f64, grid: Snapshot<OccupancyGrid>) -> Option<CellRect> {
-        let changed = grid.changes.since(self.mapped);
+    /// Takes the next map; whether it may be another than the last.
+    pub fn renew(&mut self, stamp_s: f64, grid: Snapshot<OccupancyGrid>) -> bool {
+        let since = grid.changes.since_on((self.mapped, self.map.cells.info()), grid.cells.info());
         self.mapped = grid.changes.version();
-        self.map = Snapshot { changes: self.map.changes.then_known(changed), ..grid };
+        self.map = Snapshot { changes: self.map.changes.then_since(&since), ..grid };
         self.costmap = self.costs.update(&self.map.cells, &self.map.changes);
         self.stamp_s = stamp_s;
-        changed
+        !since.is_nothing()
     }
 
     /// As the port hands it over.

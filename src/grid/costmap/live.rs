@@ -1,7 +1,7 @@
 //! The costmap of a map that changes, made for the price of what changed.
 
 use super::{Costmap, INSCRIBED_COST, Inflation, NARROW_COST};
-use crate::grid::{CellRect, Changes, Live, OccupancyGrid, Snapshot, Thresholds};
+use crate::grid::{CellRect, CellValues, Changes, GridInfo, Live, OccupancyGrid, Since, Snapshot, Thresholds};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -22,22 +22,30 @@ impl LiveCostmap {
     }
 
     /// The costs of a version of the map, the same as [`Costmap::inflate`] gives. O(cells that
-    /// changed since the last call and around them) where `changes` knows them.
+    /// changed since the last call and around them) where `changes` knows them; where the map grew,
+    /// all others are copied.
     pub fn update(&mut self, grid: &OccupancyGrid, changes: &Changes) -> Snapshot<Costmap> {
         let Self { thresholds, inflation, made } = self;
         let Some((version, live)) = made else {
             let live = Live::new(Arc::new(Costmap::inflate(grid, thresholds, inflation)));
             return made.insert((changes.version(), live)).1.snapshot();
         };
-        let changed = changes.since(*version).filter(|_| live.newest().info() == grid.info());
+        let info = grid.info();
+        let since = changes.since_on((*version, live.newest().info()), info);
         *version = changes.version();
-        match changed.zip(inflation.reach_within(grid.info())) {
-            Some((changed, _)) if changed.is_empty() => {}
-            Some((changed, reach)) => {
-                let written = changed.grown(reach, grid.info());
+        match (since, inflation.reach_within(info)) {
+            (since, Some(_)) if since.is_nothing() => {}
+            (Since::Part(changed), Some(reach)) => {
+                let written = changed.grown(reach, info);
                 live.change(written, |costmap| costmap.reinflate(grid, written, reach, thresholds, inflation));
             }
-            None => live.replace(Arc::new(Costmap::inflate(grid, thresholds, inflation))),
+            (Since::Grown(growth, changed), Some(reach)) => {
+                let write = |costmap: &mut Costmap, part: &CellRect| {
+                    costmap.reinflate(grid, *part, reach, thresholds, inflation);
+                };
+                live.grow(&growth, changed.grown(reach, info), reach, write);
+            }
+            _ => live.replace(Arc::new(Costmap::inflate(grid, thresholds, inflation))),
         }
         live.snapshot()
     }
@@ -47,8 +55,8 @@ impl LiveCostmap {
 /// [`Inflation::clear_radius_m`], is not passable here.
 #[derive(Clone, Debug, Default)]
 pub struct Roomy {
-    /// The version of the costs that are known.
-    version: Option<u64>,
+    /// The version of the costs that are known, with their size and place.
+    known: Option<(u64, GridInfo)>,
     /// How many narrow cells there are in each row.
     narrow: Vec<u32>,
     made: Option<Live<Costmap>>,
@@ -59,38 +67,49 @@ impl Roomy {
     /// since the last call).
     pub fn update(&mut self, costs: &Snapshot<Costmap>) -> Snapshot<Costmap> {
         let info = costs.cells.info();
-        let changed = self.changed(costs);
-        self.version = Some(costs.changes.version());
-        self.narrow.resize(info.height(), 0);
-        for (y, row) in rows(&costs.cells, changed.rows(info)) {
-            self.narrow[y] = row.iter().filter(|&&cost| is_narrow(cost)).count() as u32;
-        }
+        let since = self.known.map_or(Since::All, |(version, last)| costs.changes.since_on((version, &last), info));
+        self.known = Some((costs.changes.version(), *info));
+        self.count(&costs.cells, &since);
         if self.narrow.iter().all(|&cells| cells == 0) {
             self.made = None;
             return costs.clone();
         }
-        match &mut self.made {
-            Some(made) if made.newest().info() == info => {
-                if !changed.is_empty() {
-                    made.change(changed, |roomy| close_narrow(&costs.cells, roomy, &changed));
-                }
-            }
-            made => {
-                let mut roomy = Costmap::clone(&costs.cells);
-                close_narrow(&costs.cells, &mut roomy, &CellRect::of(info));
-                *made = Some(Live::new(Arc::new(roomy)));
-            }
-        }
+        let write = |roomy: &mut Costmap, part: &CellRect| {
+            roomy.copy_rect(&costs.cells, part);
+            close_narrow(roomy, part);
+        };
+        Live::follow(&mut self.made, &since, info, write, || {
+            let mut roomy = Costmap::clone(&costs.cells);
+            close_narrow(&mut roomy, &CellRect::of(info));
+            roomy
+        });
         // Cell by cell it follows from the costs: where these did not change, it did not.
         let cells = self.made.as_ref().map_or(&costs.cells, Live::newest);
         Snapshot { cells: Arc::clone(cells), changes: costs.changes.clone() }
     }
 
-    /// What changed since the costs that are known.
-    fn changed(&self, costs: &Snapshot<Costmap>) -> CellRect {
-        let is_known = self.narrow.len() == costs.cells.info().height();
-        let since = self.version.filter(|_| is_known).and_then(|version| costs.changes.since(version));
-        since.unwrap_or_else(|| CellRect::of(costs.cells.info()))
+    /// Counts what is narrow in each row that changed, and in those that grew what is new.
+    fn count(&mut self, costs: &Costmap, since: &Since) {
+        let info = costs.info();
+        let count = |cells: &[u8]| cells.iter().filter(|&&cost| is_narrow(cost)).count() as u32;
+        let (new, changed) = match since {
+            Since::Part(changed) => ([CellRect::default(); 4], *changed),
+            Since::Grown(growth, changed) => {
+                self.narrow = growth.rows(&self.narrow, 0);
+                (growth.outside(0), *changed)
+            }
+            Since::All => ([CellRect::default(); 4], CellRect::of(info)),
+        };
+        self.narrow.resize(info.height(), 0);
+        let is_anew = changed.rows(info);
+        for part in new {
+            for (y, row) in rows(costs, part.rows(info)).filter(|(y, _)| !is_anew.contains(y)) {
+                self.narrow[y] += count(&row[part.columns(info)]);
+            }
+        }
+        for (y, row) in rows(costs, is_anew) {
+            self.narrow[y] = count(row);
+        }
     }
 }
 
@@ -103,7 +122,7 @@ impl Costmap {
             return None;
         }
         let mut roomy = self.clone();
-        close_narrow(self, &mut roomy, &CellRect::of(&self.info));
+        close_narrow(&mut roomy, &CellRect::of(&self.info));
         Some(roomy)
     }
 }
@@ -112,13 +131,12 @@ const fn is_narrow(cost: u8) -> bool {
     NARROW_COST <= cost && cost < INSCRIBED_COST
 }
 
-fn close_narrow(costs: &Costmap, roomy: &mut Costmap, rect: &CellRect) {
-    let columns = rect.columns(&costs.info);
-    let width = costs.info.width();
-    for (y, row) in rows(costs, rect.rows(&costs.info)) {
-        let to = &mut roomy.costs[y * width..][columns.clone()];
-        for (to, &cost) in to.iter_mut().zip(&row[columns.clone()]) {
-            *to = if is_narrow(cost) { INSCRIBED_COST } else { cost };
+fn close_narrow(costmap: &mut Costmap, rect: &CellRect) {
+    let (rows, columns) = (rect.rows(&costmap.info), rect.columns(&costmap.info));
+    let width = costmap.info.width();
+    for row in costmap.costs.chunks_exact_mut(width).skip(rows.start).take(rows.len()) {
+        for cost in &mut row[columns.clone()] {
+            *cost = if is_narrow(*cost) { INSCRIBED_COST } else { *cost };
         }
     }
 }
@@ -173,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_grown_map_is_inflated_anew() {
+    fn a_grown_map_is_inflated_as_if_anew() {
         let (old, new) = (OccupancyGrid::from_ascii("#..").unwrap(), OccupancyGrid::from_ascii("#....").unwrap());
         let inflation = Inflation {
             inscribed_radius_m: 1.0,

@@ -1,7 +1,7 @@
 //! The map as others see it.
 
 use super::{Mapper, MapperError};
-use crate::grid::{CellRect, Live, OccupancyGrid, Snapshot};
+use crate::grid::{CellRect, Growth, Live, OccupancyGrid, Snapshot};
 use crate::sim::MapStyle;
 use std::sync::Arc;
 
@@ -33,7 +33,10 @@ impl Mapper {
                 live
             }
             Some(mut live) => {
-                live.replace_unlike(Arc::new(self.map()?));
+                match Growth::of(live.newest().info(), &info) {
+                    Some(growth) => live.grow(&growth, touched, 0, |grid, part| self.write(grid, part)),
+                    None => live.replace_unlike(Arc::new(self.map()?)),
+                }
                 live
             }
             None => Live::new(Arc::new(self.map()?)),

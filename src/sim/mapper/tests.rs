@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::config::LidarConfig;
-use crate::grid::{Cell, GridInfo, Thresholds};
+use crate::grid::{Cell, GridInfo, Since, Thresholds};
 use crate::sim::{Lidar, MapStyle, World};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -54,16 +54,18 @@ proptest! {
     fn noise_free_scans_never_mark_a_cell_wrongly(
         seed in 0u64..1000,
         poses in proptest::collection::vec((0i32..80, 0i32..60, prop_oneof![Just(0.5), Just(0.0), 0.0f64..1.0], -4.0f64..4.0), 1..6),
-        straight in proptest::bool::ANY,
+        (straight, unpublished) in (proptest::bool::ANY, 0u32..64),
     ) {
         let truth = pillars(seed);
         let world = World::new(&truth, &Thresholds::default()).unwrap();
         let start = truth.info().center(Cell::new(40, 30));
         let mut mapper = mapper(&truth, start, MapStyle::Gmapping);
         let mut lidar = Lidar::new(LIDAR, 0);
-        for (x, y, within, yaw) in poses {
+        for (turn, (x, y, within, yaw)) in poses.into_iter().enumerate() {
             // Only what is touched after this is written again.
-            mapper.publish().unwrap();
+            if unpublished >> turn & 1 == 0 {
+                mapper.publish().unwrap();
+            }
             let at = truth.info().from_grid_units(f64::from(x) + within, f64::from(y) + within);
             let pose = Pose::new(at.x, at.y, if straight { 0.0 } else { yaw });
             mapper.integrate(&pose, &lidar.sweep(&world, &pose, 0.0)).unwrap();
@@ -150,6 +152,28 @@ fn a_clear_ray_frees_its_reach_and_a_near_one_says_nothing() {
     mapper.integrate(&Pose::new(-3.13 + 2.05, 2.71 + 2.05, 0.0), &scan).unwrap();
     assert_eq!(mapper.known_cells(), 21);
     assert_eq!(mapper.publish().unwrap().cells.data().iter().filter(|&&v| v == 0).count(), 21);
+}
+
+/// What a scan saw before the map grew in front of it is published where it lies then.
+#[test]
+fn what_was_seen_before_the_map_grew_is_published_too() {
+    let mut mapper = mapper(&pillars(0), Point::new(0.0, 5.0), MapStyle::Gmapping);
+    let first = mapper.publish().unwrap();
+    let scan = |range_max_m| LaserScan {
+        range_min_m: 0.1,
+        range_max_m,
+        ranges_m: vec![f32::INFINITY],
+        ..LaserScan::default()
+    };
+    mapper.integrate(&Pose::new(0.0, 5.0, 0.3), &scan(0.8)).unwrap();
+    mapper.integrate(&Pose::new(0.0, 5.0, -2.5), &scan(4.0)).unwrap();
+    let next = mapper.publish().unwrap();
+    assert_eq!(*next.cells, mapper.map().unwrap());
+    let since = next.changes.since_on((first.changes.version(), first.cells.info()), next.cells.info());
+    let Since::Grown(growth, told) = since else { panic!("{since:?}") };
+    assert!(growth.corner().0 > 20 && growth.corner().1 > 10);
+    let differ = growth.changed([first.cells.data(), next.cells.data()], &CellRect::of(next.cells.info())).unwrap();
+    assert_eq!(told.union(differ), told);
 }
 
 /// One ray along a row of cells, from the middle of the first.
