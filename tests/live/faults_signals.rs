@@ -38,7 +38,8 @@ fn expect_leaving(world: &World, explore: &mut Process, signal: &str, what: &str
 
 fn whatever_is_wrong(world: &World) {
     let faults = world.probe.publish_latched::<StringMessage>("/sim/fault").unwrap();
-    let _sim = world.simulate(&[KIND, &["_speed:=2"]].concat());
+    // A house would be explored before the last of them.
+    let _sim = world.simulate(&[KIND, &["_speed:=2", "_world:=office", "_start:=[]"]].concat());
     let wrong = ["drop_tf", "abort_goals", "reject_goals", "hang", "dead_move_base", "stop_map"];
     for (fault, signal) in wrong.iter().flat_map(|fault| ["INT", "TERM"].map(|signal| (*fault, signal))) {
         let mut explore = world.explore(&["_explorer:={turns: {at_start: false}}"]);
