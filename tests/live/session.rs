@@ -1,6 +1,6 @@
 //! Explorations that go on: after a crash, after a rest, on another day, and in another place.
 
-use crate::rig::{DEADLINE, Heard, Process};
+use crate::rig::{DEADLINE, Heard, Process, eventually};
 use crate::{EXACT, SOON, Test, World};
 use frontier_explorer::io::load_map;
 use frontier_explorer::ros::msg::frontier_explorer::ExplorationStatus;
@@ -50,9 +50,15 @@ fn paused(world: &World) {
     let _sim = world.simulate_kindly(&["_speed:=2"]);
     let mut explore = go_on(world, &[]);
     status.expect(DEADLINE, "turning", |m| m.phase == ExplorationStatus::TURNING);
-    resume.send(Bool { data: false }).unwrap();
-    status.expect(SOON, "a rest", |m| m.phase == ExplorationStatus::PAUSED);
-    std::thread::sleep(Duration::from_secs(1));
+    // What is sent before the two are connected is lost.
+    let rests = || {
+        resume.send(Bool { data: false }).unwrap();
+        status.last().is_some_and(|m| m.phase == ExplorationStatus::PAUSED)
+    };
+    eventually(SOON, rests, || format!("no rest: {:?}", status.last()));
+    // A slow disk takes its time.
+    let session = || std::fs::read_to_string(world.folder.join("session.json")).unwrap_or_default();
+    eventually(SOON, || session().contains("\"activity\": \"paused\""), session);
     explore.signal("KILL");
     explore.wait(SOON);
     let before = status.all().len();
