@@ -9,7 +9,7 @@
 use super::ControlInput;
 use super::outline::Outline;
 use crate::geometry::{Point, Pose};
-use crate::grid::{Cell, GridInfo, GridInfoError, LETHAL_COST, squared_distance_cells};
+use crate::grid::{Cell, CellRect, GridInfo, GridInfoError, LETHAL_COST, squared_distance_cells};
 
 /// Edge of a cell of the local grid, metres.
 const CELL_M: f64 = 0.05;
@@ -48,12 +48,10 @@ impl Surroundings {
         let center = costmap.cell_at(robot.position());
         // The corner of a square is sqrt 2 times as far as its side, however it is turned.
         let cells = costmap.cells(half_m * std::f64::consts::SQRT_2).ceil() as i32;
-        let within = |at: i32, size: usize| {
-            at.saturating_sub(cells).max(0)..at.saturating_add(cells).saturating_add(1).min(size as i32)
-        };
-        for y in within(center.y, costmap.height()) {
-            for x in within(center.x, costmap.width()) {
-                let cell = Cell::new(x, y);
+        let near = CellRect::around(center, cells, costmap);
+        for y in near.rows(costmap) {
+            for x in near.columns(costmap) {
+                let cell = Cell::new(x as i32, y as i32);
                 if input.costmap.cost(cell) == LETHAL_COST {
                     add(costmap.center(cell));
                 }
@@ -113,15 +111,11 @@ impl Surroundings {
 
     /// The points of the cells in a square around a cell.
     fn points_around(&self, center: Cell, cells: i32) -> impl Iterator<Item = &Point> {
-        let (width, height) = (self.info.width() as i32, self.info.height() as i32);
-        let within = |at: i32, size: i32| {
-            let end = at.saturating_add(cells).saturating_add(1);
-            at.saturating_sub(cells).clamp(0, size)..end.clamp(0, size)
-        };
-        let (columns, rows) = (within(center.x, width), within(center.y, height));
-        rows.flat_map(move |y| {
-            let row = y as usize * self.info.width();
-            let (from, to) = (row + columns.start as usize, row + columns.end as usize);
+        let near = CellRect::around(center, cells, &self.info);
+        let columns = near.columns(&self.info);
+        near.rows(&self.info).flat_map(move |y| {
+            let row = y * self.info.width();
+            let (from, to) = (row + columns.start, row + columns.end);
             &self.points[self.first[from]..self.first[to]]
         })
     }

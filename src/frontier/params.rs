@@ -2,7 +2,7 @@
 
 use super::{CannyParams, DbscanParams, DetectError, FastParams, ImageParams};
 use crate::geometry::Pose;
-use crate::grid::{Cell, CellState, GridInfo, Neighbourhood, OccupancyGrid, ThresholdError, Thresholds};
+use crate::grid::{Cell, CellRect, CellState, GridInfo, Neighbourhood, OccupancyGrid, ThresholdError, Thresholds};
 use crate::range::{OutOfRange, Range, Ranged};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -105,9 +105,9 @@ impl DetectorParams {
             return Err(DetectError::RobotOutsideMap { x, y, width, height, min_x: origin.x, min_y: origin.y });
         }
         let reach = info.cells(SEED_RADIUS_M).ceil() as i32;
-        let within = |at: i32, size: usize| at.saturating_sub(reach).max(0)..(at + reach + 1).min(size as i32);
-        let (columns, rows) = (within(robot.x, info.width()), within(robot.y, info.height()));
-        rows.flat_map(|y| columns.clone().map(move |x| Cell::new(x, y)))
+        let near = CellRect::around(robot, reach, info);
+        near.rows(info)
+            .flat_map(|y| near.columns(info).map(move |x| Cell::new(x as i32, y as i32)))
             .filter(|&cell| grid.state(cell, &self.thresholds) == CellState::Free)
             .map(|cell| (cell.distance_squared(robot), cell.y, cell.x, cell))
             .filter(|candidate| candidate.0 <= i64::from(reach).pow(2))

@@ -96,6 +96,18 @@ impl Changes {
     }
 }
 
+/// The version of a state that somebody has seen last, with its size and place.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Known(Option<(u64, GridInfo)>);
+
+impl Known {
+    /// Takes note of the newest version, and tells where it may differ from the one before.
+    pub fn renew(&mut self, changes: &Changes, info: &GridInfo) -> Since {
+        let last = self.0.replace((changes.version(), *info));
+        last.map_or(Since::All, |(version, last)| changes.since_on((version, &last), info))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

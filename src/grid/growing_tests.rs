@@ -80,17 +80,13 @@ impl Step {
 pub fn is_told<T: CellValues>(last: &Snapshot<T>, next: &Snapshot<T>) -> bool {
     let (old, new) = (last.cells.info(), next.cells.info());
     let values = [last.cells.values(), next.cells.values()];
-    match next.changes.since_on((last.changes.version(), old), new) {
-        Since::Part(told) => {
-            let differs = changed_rect(&*last.cells, &*next.cells).unwrap_or_default();
-            told.union(differs) == told || differs.is_empty()
-        }
-        Since::Grown(growth, told) => {
-            let differs = growth.changed(values, &CellRect::of(new)).unwrap_or_default();
-            told.union(differs) == told || differs.is_empty()
-        }
-        Since::All => false,
-    }
+    let (growth, told) = match next.changes.since_on((last.changes.version(), old), new) {
+        Since::Part(told) => (Growth::none(new), told),
+        Since::Grown(growth, told) => (growth, told),
+        Since::All => return false,
+    };
+    let differs = growth.changed(values, &CellRect::of(new)).unwrap_or_default();
+    told.union(differs) == told || differs.is_empty()
 }
 
 proptest! {

@@ -33,6 +33,7 @@ pub(crate) use cell_values::changed_rect;
 pub use census::Census;
 pub(crate) use census::LiveCensus;
 pub use changes::Changes;
+pub(crate) use changes::Known;
 pub use costmap::{
     BelievedCosts, Costmap, FREE_COST, HIGHEST_COST, INSCRIBED_COST, Inflation, LETHAL_COST, NARROW_COST, UNKNOWN_COST,
     unknown_share_hidden_by,

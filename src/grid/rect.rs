@@ -31,6 +31,18 @@ impl CellRect {
         Some(Self { x, y, width: 1, height: 1 })
     }
 
+    /// The cells of a grid that lie at most so many columns and rows from one, which may lie outside.
+    #[must_use]
+    pub fn around(center: Cell, cells: i32, info: &GridInfo) -> Self {
+        let span = |at: i32, size: usize| {
+            let end = at.saturating_add(cells).saturating_add(1).clamp(0, size as i32);
+            let start = at.saturating_sub(cells).clamp(0, end);
+            (start as usize, (end - start) as usize)
+        };
+        let ((x, width), (y, height)) = (span(center.x, info.width()), span(center.y, info.height()));
+        Self { x, y, width, height }
+    }
+
     /// The smallest rectangle that holds this one and another; one without cells counts
     /// for nothing.
     #[must_use]
@@ -94,6 +106,16 @@ impl CellRect {
 mod tests {
     use super::*;
     use crate::geometry::Pose;
+
+    #[test]
+    fn what_lies_around_a_cell_ends_with_the_grid() {
+        let info = GridInfo::new(9, 7, 1.0, Pose::default()).unwrap();
+        let around = |x, y, cells| CellRect::around(Cell::new(x, y), cells, &info);
+        assert_eq!(around(4, 3, 1), CellRect { x: 3, y: 2, width: 3, height: 3 });
+        assert_eq!(around(-1, 6, 2), CellRect { x: 0, y: 4, width: 2, height: 3 });
+        assert_eq!(around(4, 3, i32::MAX), CellRect::of(&info));
+        assert!([around(-3, 3, 2), around(4, 9, 2), around(i32::MIN, i32::MAX, 5)].iter().all(CellRect::is_empty));
+    }
 
     #[test]
     fn rows_and_columns_stay_within_the_grid() {

@@ -13,8 +13,8 @@
 use super::endpoints::ESCAPE_RADIUS_M;
 use crate::geometry::{Point, Pose};
 use crate::grid::{
-    Cell, CellRect, CellValues, Changes, Costmap, GridInfo, INSCRIBED_COST, LETHAL_COST, Live, NARROW_COST,
-    Neighbourhood, Since, Snapshot, UNKNOWN_COST, traverse,
+    Cell, CellRect, CellValues, Changes, Costmap, INSCRIBED_COST, Known, LETHAL_COST, Live, NARROW_COST, Neighbourhood,
+    Snapshot, UNKNOWN_COST, traverse,
 };
 use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
@@ -90,8 +90,7 @@ impl Driven {
 /// next.
 #[derive(Clone, Debug, Default)]
 pub struct Opened {
-    /// The version of the costs that are known, with their size and place.
-    known: Option<(u64, GridInfo)>,
+    known: Known,
     opened: HashMap<Cell, u8>,
     made: Option<Live<Costmap>>,
     /// Its versions: a cell that was opened may be closed again where the costs stay the same.
@@ -103,8 +102,7 @@ impl Opened {
     pub fn update(&mut self, driven: &Driven, costs: &Snapshot<Costmap>, robot: &Pose) -> Snapshot<Costmap> {
         let info = costs.cells.info();
         let opened = driven.opened(&costs.cells, robot);
-        let since = self.known.map_or(Since::All, |(version, last)| costs.changes.since_on((version, &last), info));
-        self.known = Some((costs.changes.version(), *info));
+        let since = self.known.renew(&costs.changes, info);
         let last = std::mem::replace(&mut self.opened, opened);
         let last = last.into_iter().map(|(cell, cost)| (cell.offset(since.offset()), cost)).collect();
         let other = |a: &HashMap<Cell, u8>, b: &HashMap<Cell, u8>| {

@@ -1,13 +1,12 @@
 //! Which cells the robot can get to, without the ways.
 
 use crate::bits::BitPlane;
-use crate::grid::{CellRect, Costmap, GridInfo, INSCRIBED_COST, Since, Snapshot};
+use crate::grid::{CellRect, Costmap, INSCRIBED_COST, Known, Since, Snapshot};
 
 /// The cells that the robot's centre may be in, kept from one version of a costmap to the next.
 #[derive(Clone, Debug, Default)]
 pub struct Passable {
-    /// The version that is known, with its size and place.
-    known: Option<(u64, GridInfo)>,
+    known: Known,
     plane: BitPlane,
 }
 
@@ -16,8 +15,7 @@ impl Passable {
     /// known.
     pub fn update(&mut self, costs: &Snapshot<Costmap>) -> &BitPlane {
         let info = costs.cells.info();
-        let since = self.known.map_or(Since::All, |(version, last)| costs.changes.since_on((version, &last), info));
-        self.known = Some((costs.changes.version(), *info));
+        let since = self.known.renew(&costs.changes, info);
         let size = (info.width(), info.height());
         let set = |plane: &mut BitPlane, part: &CellRect| plane.set_values(part, costs.cells.costs(), is_passable);
         match since {

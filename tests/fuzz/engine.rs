@@ -39,6 +39,17 @@ pub const fn none() -> Vec<(String, Vec<u8>)> {
     Vec::new()
 }
 
+/// The files of a folder of the project, by name; none where there is no such folder.
+pub fn files_in(folder: &str) -> Vec<(String, Vec<u8>)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let paths = std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
+    let files = paths.filter(|path| path.is_file()).map(|path| {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        (name, std::fs::read(path).unwrap())
+    });
+    files.collect()
+}
+
 fn setting(name: &str) -> Option<f64> {
     std::env::var(name).ok().map(|value| value.parse().expect("a number"))
 }
@@ -80,13 +91,8 @@ impl Target {
 
     /// The valid inputs that are made by code, and those of the target's folder, by name.
     fn corpus(&self) -> Vec<(String, Vec<u8>)> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(self.name);
-        let paths = std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.unwrap().path());
-        let kept = paths.map(|path| {
-            let name = path.file_name().unwrap().to_string_lossy().into_owned();
-            (name, std::fs::read(path).unwrap())
-        });
-        let mut corpus: Vec<(String, Vec<u8>)> = (self.seeds)().into_iter().chain(kept).collect();
+        let mut corpus = (self.seeds)();
+        corpus.extend(files_in(&format!("tests/fuzz/corpus/{}", self.name)));
         assert!(!corpus.is_empty(), "{} has no input to begin with", self.name);
         corpus.sort();
         corpus

@@ -1,6 +1,6 @@
 //! Presets and robots as YAML, and trees of ROS parameters.
 
-use super::engine::{Answer, Target, none};
+use super::engine::{Answer, Target, files_in, none};
 use super::exploring::{a_while, room};
 use frontier_explorer::config::{Live, NodeParams, Preset, RobotConfig, builtin_robot};
 use frontier_explorer::explore::Explorer;
@@ -58,17 +58,7 @@ fn drive(preset: Preset, robot: &RobotConfig) -> Answer {
 
 /// The built-in presets.
 fn seeds() -> Vec<(String, Vec<u8>)> {
-    files("configs", &["worlds.yaml"])
-}
-
-fn files(folder: &str, but: &[&str]) -> Vec<(String, Vec<u8>)> {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
-    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
-    let files = paths.map(|path| {
-        let name = path.file_name().unwrap().to_string_lossy().into_owned();
-        (name, std::fs::read(path).unwrap())
-    });
-    files.filter(|(name, _)| !but.contains(&name.as_str())).collect()
+    files_in("configs").into_iter().filter(|(name, _)| name != "worlds.yaml").collect()
 }
 
 #[test]
@@ -76,7 +66,7 @@ fn robots() {
     let target = Target {
         name: "robots",
         run: robot,
-        seeds: || files("configs/robots", &[]),
+        seeds: || files_in("configs/robots"),
         memory: (128 << 20, 500),
         least_taken_percent: 5.0,
     };

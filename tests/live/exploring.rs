@@ -116,8 +116,7 @@ fn sigterm(world: &World) {
 
 fn lost_transforms(world: &World) {
     let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
-    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
-    faults.set_latching(true);
+    let faults = world.probe.publish_latched::<StringMessage>("/sim/fault").unwrap();
     let mut sim = world.simulate(&[]);
     let mut explore = world.explore(&[]);
     status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
@@ -179,8 +178,7 @@ fn hanging_goals(world: &World) {
 
 fn rests_and_goes_on(world: &World) {
     let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
-    let mut resume = world.probe.publish::<Bool>("/explore/resume", 1).unwrap();
-    resume.set_latching(true);
+    let resume = world.probe.publish_latched::<Bool>("/explore/resume").unwrap();
     let _sim = world.simulate(&[]);
     let mut explore = world.explore(&[]);
     status.expect(DEADLINE, "driving", |m| m.phase == ExplorationStatus::DRIVING);
@@ -212,8 +210,7 @@ fn foreign_goal(world: &World) {
 
 fn region(world: &World) {
     let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
-    let mut regions = world.probe.publish::<PolygonStamped>("/explore/set_region", 1).unwrap();
-    regions.set_latching(true);
+    let regions = world.probe.publish_latched::<PolygonStamped>("/explore/set_region").unwrap();
     let corner = |x: f32, y: f32| Point32 { x, y, z: 0.0 };
     let points = vec![corner(0.0, 0.0), corner(3.7, 0.0), corner(3.7, 3.5), corner(0.0, 3.5)];
     regions.send(PolygonStamped { polygon: Polygon { points }, ..PolygonStamped::default() }).unwrap();

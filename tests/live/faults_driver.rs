@@ -42,8 +42,7 @@ fn expect_no_goal_lost(
     gone_when: impl Fn(&ExplorationStatus) -> bool,
 ) {
     let status = statuses(world);
-    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
-    faults.set_latching(true);
+    let faults = world.probe.publish_latched::<StringMessage>("/sim/fault").unwrap();
     let tell = |fault: &str| faults.send(StringMessage { data: fault.to_owned() }).unwrap();
     let mut sim = world.simulate_kindly(sim_args);
     let mut explore = world.explore(explore_args);

@@ -225,8 +225,7 @@ fn one_stamp(world: &World) {
 
 fn stops(world: &World) {
     let mut stage = stage(world, &[]);
-    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
-    faults.set_latching(true);
+    let faults = world.probe.publish_latched::<StringMessage>("/sim/fault").unwrap();
     let mut explore = world.explore(&["_explorer:={patience: {map_timeout_s: 30.0}}"]);
     stage.is_driving();
     faults.send(StringMessage { data: "stop_map".to_owned() }).unwrap();

@@ -119,8 +119,7 @@ fn changes_the_run(world: &World) {
 
 fn reaches_the_robot(world: &World) {
     let status = Heard::<ExplorationStatus>::on(&world.probe, "/explore/status");
-    let mut faults = world.probe.publish::<StringMessage>("/sim/fault", 1).unwrap();
-    faults.set_latching(true);
+    let faults = world.probe.publish_latched::<StringMessage>("/sim/fault").unwrap();
     let _sim = world.simulate_kindly(&["_speed:=3"]);
     let explore = stays(world, &[]);
     status.expect(DEADLINE, "a way", |m| m.phase == ExplorationStatus::TURNING || m.goals_sent > 0);

@@ -1,7 +1,7 @@
 //! The costmap of a map that changes, made for the price of what changed.
 
 use super::{Costmap, INSCRIBED_COST, Inflation, NARROW_COST};
-use crate::grid::{CellRect, CellValues, Changes, GridInfo, Live, OccupancyGrid, Since, Snapshot, Thresholds};
+use crate::grid::{CellRect, CellValues, Changes, Known, Live, OccupancyGrid, Since, Snapshot, Thresholds};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -55,8 +55,7 @@ impl LiveCostmap {
 /// [`Inflation::clear_radius_m`], is not passable here.
 #[derive(Clone, Debug, Default)]
 pub struct Roomy {
-    /// The version of the costs that are known, with their size and place.
-    known: Option<(u64, GridInfo)>,
+    known: Known,
     /// How many narrow cells there are in each row.
     narrow: Vec<u32>,
     made: Option<Live<Costmap>>,
@@ -67,8 +66,7 @@ impl Roomy {
     /// since the last call).
     pub fn update(&mut self, costs: &Snapshot<Costmap>) -> Snapshot<Costmap> {
         let info = costs.cells.info();
-        let since = self.known.map_or(Since::All, |(version, last)| costs.changes.since_on((version, &last), info));
-        self.known = Some((costs.changes.version(), *info));
+        let since = self.known.renew(&costs.changes, info);
         self.count(&costs.cells, &since);
         if self.narrow.iter().all(|&cells| cells == 0) {
             self.made = None;
