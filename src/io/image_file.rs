@@ -23,6 +23,11 @@ const MAX_UNPACKED_BYTES: u64 = 4 * MAX_CELLS;
 /// Deflate's best: no PNG unpacks to more than this many times its size.
 const MAX_DEFLATE_RATIO: u64 = 1032;
 
+/// A PNG's numbers for kinds of pixels with more than one sample.
+const PNG_RGB: u8 = 2;
+const PNG_GREY_ALPHA: u8 = 4;
+const PNG_RGBA: u8 = 6;
+
 /// What a map is made of, top row first.
 pub(super) struct MapPixels {
     /// Columns.
@@ -110,7 +115,7 @@ fn read_png(bytes: &[u8], path: &Path) -> Result<MapPixels, MapError> {
 /// more than a grid can hold, or than its own file can.
 fn check_png_size(bytes: &[u8], path: &Path) -> Result<(), MapError> {
     // The first chunk follows signature, length and name, and begins with the size.
-    let Some(&[w0, w1, w2, w3, h0, h1, h2, h3]) = bytes.get(16..24) else {
+    let Some(&[w0, w1, w2, w3, h0, h1, h2, h3, depth, colours]) = bytes.get(16..26) else {
         return Err(MapError::Image { path: path.to_path_buf(), reason: "its header is cut off".to_owned() });
     };
     let width = u64::from(u32::from_be_bytes([w0, w1, w2, w3]));
@@ -119,8 +124,15 @@ fn check_png_size(bytes: &[u8], path: &Path) -> Result<(), MapError> {
     if !(1..=MAX_CELLS).contains(&count) {
         return Err(MapError::ImageSize { path: path.to_path_buf(), width, height });
     }
-    // A byte holds up to eight samples of one bit.
-    let found = (bytes.len() as u64).saturating_mul(MAX_DEFLATE_RATIO * 8);
+    let samples = match colours {
+        PNG_RGB => 3,
+        PNG_GREY_ALPHA => 2,
+        PNG_RGBA => 4,
+        // One of grey or of a palette; others the decoder refuses.
+        _ => 1,
+    };
+    let bits = (u64::from(depth) * samples).max(1);
+    let found = (bytes.len() as u64).saturating_mul(MAX_DEFLATE_RATIO * 8) / bits;
     if count > found {
         return Err(MapError::Truncated { path: path.to_path_buf(), found, width, height });
     }

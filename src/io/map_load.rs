@@ -211,6 +211,10 @@ mod tests {
         let mut hollow = png(&[0], 1, ExtendedColorType::L8);
         hollow[16..24].copy_from_slice(&[0, 0, 0x40, 0, 0, 0, 0x40, 0]);
         sign_header(&mut hollow);
+        // As many pixels of one bit could be in it, and none of these with 32.
+        let mut vast = png(&[0; 4], 1, ExtendedColorType::Rgba8);
+        vast[16..24].copy_from_slice(&[0, 0, 1, 0xf4, 0, 0, 3, 0xe8]);
+        sign_header(&mut vast);
         let mut cut = png(&[7; 300], 100, ExtendedColorType::Rgb8);
         cut.truncate(50);
         for (image, expected) in [
@@ -225,6 +229,7 @@ mod tests {
             (&cut, "is a damaged image: "),
             (&giant, "a.img claims 2147483647 x 2147483647 pixels: must be at least 1"),
             (&hollow, "a.img is truncated: it has data for at most "),
+            (&vast, "of 500 x 1000 pixels"),
         ] {
             let message = load(YAML, image).unwrap_err().to_string();
             assert!(message.contains(expected), "{message}");
